@@ -1,0 +1,7 @@
+//! The scenes that the examples, tests and boards all draw.
+//!
+//! Everything here is data in flash and integer code: no allocation, and no floating point after compilation.
+#![no_std]
+
+pub mod teapot;
+pub mod texture;

@@ -1,0 +1,2 @@
+//! The spinning teapot.
+fn main() {}

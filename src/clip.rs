@@ -1,0 +1,306 @@
+//! Clip planes as edge functions: a plane is one more linear function over the triangle, never a new
+//! vertex (Olano & Greer 1997, section 5.3).
+//!
+//! At a covered pixel the surface point is `sum(k_i p_i E_i) / sum(k_i E_i)`, with `E_i >= 0` the edge
+//! functions and `k_i > 0` the vertices' scales. So `sum(k_i n(p_i) E_i)` has the sign of the plane
+//! function `n` there, and it is linear on the screen: the pseudo-parameter vector of the paper.
+//!
+//! Bit budget: each `k_i n(p_i)` is cut to 32 significant bits, one part in 2^29 off at most, and all three are
+//! integers of at most 62 bits on one scale; times an edge function of 61 bits (one pixel outside of the
+//! viewport: 62), summed, that is below 2^126: `i128`. Bits that the common scale drops are 2^-61 of the
+//! largest. So a pixel may be decided wrongly only where the exact `n . p` is within 2^-28 of the largest `|n .
+//! p_i|` of the triangle's vertices; the contract asks for 2^-12. Only triangles that cross a plane pay.
+
+use crate::math::Scale;
+use crate::setup::Setup;
+use crate::vertex::{ClipVertex, Outside, Position, ScaleOf, Snap, Snapped, Vertex};
+use fixed::types::I16F16;
+
+/// What is kept along `w`: a type, so that a scene without a hither plane has no code for one.
+///
+/// Implemented by [`NoHither`], [`BothSides`] and [`Hither`].
+pub trait WRange: Copy + core::fmt::Debug {
+    /// Whether there is a plane.
+    const CLIPS: bool;
+    /// Whether the part behind the eye is drawn too.
+    const BEHIND: bool;
+    /// The least `w` that is in front, raw Q16.16: the hither distance, or 1.
+    fn least_w(&self) -> i64;
+}
+
+/// No hither plane: the part in front of the eye, down to the eye itself. For flat colour without depth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NoHither;
+
+/// No hither plane, and both parts of an external triangle: the one in front of the eye and its mirror
+/// image behind (the footnote in section 5.1 of the paper).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BothSides;
+
+/// The hither plane `w >= distance`: the one clip plane that perspective and depth need, since it
+/// bounds `1 / w`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hither {
+    raw: i32,
+}
+
+impl Hither {
+    /// A plane at `distance`, in the units of `w`.
+    ///
+    /// # Errors
+    ///
+    /// [`HitherDistance`] where `distance` is not positive.
+    #[inline]
+    pub const fn new(distance: I16F16) -> Result<Self, HitherDistance> {
+        let raw = distance.to_bits();
+        if raw > 0 {
+            Ok(Self { raw })
+        } else {
+            Err(HitherDistance { distance })
+        }
+    }
+
+    /// The distance, raw Q16.16; positive.
+    #[inline]
+    pub(crate) const fn raw(self) -> i32 {
+        self.raw
+    }
+}
+
+impl WRange for NoHither {
+    const CLIPS: bool = false;
+    const BEHIND: bool = false;
+
+    #[inline]
+    fn least_w(&self) -> i64 {
+        1
+    }
+}
+
+impl WRange for BothSides {
+    const CLIPS: bool = false;
+    const BEHIND: bool = true;
+
+    #[inline]
+    fn least_w(&self) -> i64 {
+        1
+    }
+}
+
+impl WRange for Hither {
+    const CLIPS: bool = true;
+    const BEHIND: bool = false;
+
+    #[inline]
+    fn least_w(&self) -> i64 {
+        i64::from(self.raw)
+    }
+}
+
+/// A hither distance is 0 or negative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HitherDistance {
+    /// The distance asked for.
+    pub distance: I16F16,
+}
+
+impl core::fmt::Display for HitherDistance {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(
+            f,
+            "a hither plane at w = {}: it must be above 0",
+            self.distance
+        )
+    }
+}
+
+impl core::error::Error for HitherDistance {}
+
+/// A clip plane: what has `a x + b y + c z + d w >= 0` in clip space is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plane {
+    /// At most 2^28 in magnitude, so that a distance fits `i64`.
+    normal: [i32; 4],
+}
+
+impl Plane {
+    /// A plane from its four coefficients. Only their ratios matter; those beyond ±4096 are scaled down
+    /// together, to one part in 2^28.
+    #[must_use]
+    pub fn new(coefficients: [I16F16; 4]) -> Self {
+        let raw = coefficients.map(I16F16::to_bits);
+        let all = raw.iter().fold(0, |all, v| all | v.unsigned_abs());
+        let shift = 4u32.saturating_sub(all.leading_zeros());
+        Self {
+            normal: raw.map(|v| v >> shift),
+        }
+    }
+
+    /// `n . p` of the raw coordinates: at most 2^61.
+    #[inline]
+    pub(crate) fn distance(&self, vertex: &ClipVertex) -> i64 {
+        let ([a, b, c, d], [x, y, z, w]) = (self.normal, vertex.raw);
+        let product = |n: i32, v: i32| i64::from(n) * i64::from(v);
+        product(a, x) + product(b, y) + product(c, z) + product(d, w)
+    }
+}
+
+/// A linear function of the pixel, `a X + b Y + c >= 0` inside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfPlane<I> {
+    pub(crate) a: I,
+    pub(crate) b: I,
+    pub(crate) c: I,
+}
+
+/// A real with a sign.
+#[derive(Clone, Copy)]
+struct Signed {
+    negative: bool,
+    scale: Scale,
+}
+
+impl Signed {
+    #[inline]
+    fn of(v: i64) -> Self {
+        Self {
+            negative: v < 0,
+            scale: Scale::of(v.unsigned_abs()),
+        }
+    }
+
+    #[inline]
+    fn times(self, scale: Scale) -> Self {
+        Self {
+            scale: self.scale.times(scale),
+            ..self
+        }
+    }
+}
+
+/// Three reals as integers of at most 62 bits on one scale.
+fn align(values: [Signed; 3]) -> [i128; 3] {
+    let top = values
+        .iter()
+        .filter(|v| v.scale.mantissa != 0)
+        .map(|v| v.scale.exponent)
+        .max()
+        .unwrap_or(0);
+    values.map(|v| {
+        let drop = (top - v.scale.exponent).clamp(0, 63).unsigned_abs();
+        let magnitude = i128::from((u64::from(v.scale.mantissa) << 30) >> drop);
+        if v.negative { -magnitude } else { magnitude }
+    })
+}
+
+/// The edge function of a plane with values `values[i] = k_i n(p_i)`, over an oriented setup.
+fn half_plane(setup: &Setup, values: [Signed; 3]) -> HalfPlane<i128> {
+    let [u, v, w] = align(values);
+    let sum = |[x, y, z]: [i64; 3]| u * i128::from(x) + v * i128::from(y) + w * i128::from(z);
+    HalfPlane {
+        a: sum(setup.a) << setup.step,
+        b: sum(setup.b) << setup.step,
+        c: sum(setup.c),
+    }
+}
+
+/// `k (w - h)` of a snapped vertex.
+fn above_hither<P: Position>(position: &P, hither: Hither) -> Signed {
+    let h = i64::from(hither.raw());
+    match position.homogeneous() {
+        // k w is exactly half a pixel's subpixels, k h at most that: Q40.
+        Snapped::Projected { .. } => {
+            let ScaleOf(k) = position.scale();
+            let value = (i64::from(position.scaled_w()) << 40) - k.apply(h, 40);
+            Signed::of(value).times(Scale::power_of_two(-40))
+        }
+        // w 2^-shift - h, without rounding: 52 bits, or 61.
+        Snapped::Homogeneous {
+            point: [_, _, w],
+            shift,
+        } => {
+            let (value, exponent) = if shift >= 0 {
+                (i64::from(w) - (h << shift), 0)
+            } else if shift >= -40 {
+                ((i64::from(w) << -shift) - h, shift)
+            } else {
+                // h is below 2^-9 of the grid's step.
+                ((i64::from(w) << 10) - 1, -10)
+            };
+            Signed::of(value).times(Scale::power_of_two(exponent))
+        }
+    }
+}
+
+/// The edge functions of the planes that cut a triangle: at most one a plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClipEdges<const P: usize> {
+    pub(crate) hither: Option<HalfPlane<i128>>,
+    pub(crate) planes: [Option<HalfPlane<i128>>; P],
+}
+
+impl<const P: usize> ClipEdges<P> {
+    /// For each plane that some vertex is outside of (a bit of `outside`), its edge function.
+    #[inline]
+    pub(crate) fn new<T: Snap, const N: usize>(
+        setup: &Setup,
+        vertices: [&Vertex<T, N, P>; 3],
+        hither: Option<Hither>,
+        outside: Outside,
+    ) -> Self {
+        let mut edges = Self {
+            hither: None,
+            planes: [None; P],
+        };
+        if let Some(hither) = hither.filter(|_| outside.0 & Outside::HITHER != 0) {
+            let values = vertices.map(|v| above_hither(&v.position, hither));
+            edges.hither = Some(half_plane(setup, values));
+        }
+        for (i, edge) in edges.planes.iter_mut().enumerate() {
+            if outside.0 & (Outside::FIRST_PLANE << i) != 0 {
+                let values = vertices.map(|v| {
+                    let ScaleOf(k) = v.position.scale();
+                    let distance = v.distances.get(i).copied().unwrap_or(0);
+                    let raw = Scale::power_of_two(i32::from(v.shift));
+                    Signed::of(distance).times(k).times(raw)
+                });
+                *edge = Some(half_plane(setup, values));
+            }
+        }
+        edges
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plane_coefficients_keep_their_ratios() {
+        let all = |v: [i32; 4]| Plane::new(v.map(I16F16::from_bits)).normal;
+        assert_eq!(all([1024, -1024, 3, 0]), [1024, -1024, 3, 0]);
+        assert_eq!(all([1 << 28, 0, 0, 0])[0], 1 << 27);
+        assert_eq!(
+            all([i32::MIN, i32::MAX, 16, 0]),
+            [-(1 << 27), (1 << 27) - 1, 1, 0]
+        );
+        let far = ClipVertex {
+            raw: [i32::MIN; 4],
+            shift: 0,
+        };
+        assert_eq!(Plane::new([I16F16::MIN; 4]).distance(&far), 1 << 60);
+    }
+
+    #[test]
+    fn aligned_values_keep_sign_and_ratio() {
+        let values = [
+            Signed::of(3),
+            Signed::of(-5),
+            Signed::of(7).times(Scale::power_of_two(40)),
+        ];
+        let [a, b, c] = align(values);
+        assert_eq!((a * 5, c), (-b * 3, (a << 40) / 3 * 7));
+        let [zero, _, top] = align([Signed::of(0), Signed::of(1), Signed::of(i64::MIN)]);
+        assert_eq!((zero, top), (0, -(1 << 61)));
+    }
+}

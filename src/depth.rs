@@ -1,0 +1,366 @@
+//! Depth: `z / w`, 0 on the hither plane and 1 at far, stored in 16 or 32 bits.
+//!
+//! `z / w` is linear on the screen: `sum(k_i z_i E_i) / D`, set up from `[k_i z_i]` (Olano & Greer 1997,
+//! section 4). The running value is 32 bits, `(z / w)(2^N - 1) 2^(32 - N)`; its top `N` bits are stored, rounded.
+//!
+//! Error budget for `N = 16`, in stored units of 2^16 running ones (after Rossignac, section 9.3.1: the running value
+//! carries the bits that its additions lose):
+//! - each row starts from the exact edge functions: each of three weights is within 2^-29 of itself, the part they
+//!   share (`1 / D`) changes nothing but the scale of the whole, so the start is within 2^-13 of a unit for vertices in
+//!   front of the eye, and 2^-2 where one is 4096 hither distances behind it;
+//! - the step is rounded to half a running unit: 511 steps add 2^-8;
+//! - rounding to 16 bits adds 1/2.
+//!
+//! So a stored depth is within 1 unit of the exact plane at every covered pixel. With `N = 32` the running value
+//! itself is stored: within 2^-15 of the range for `w` in front of the eye.
+//!
+//! A row whose ends are both inside of the range is inside all along, since a row is linear and its steps are exact
+//! integers. Any other row is stored pixel by pixel, each saturated; no value wraps.
+
+use crate::framebuffer::BufferSize;
+use crate::math::{Scale, index, low};
+use crate::setup::Setup;
+use crate::span::Span;
+use crate::vertex::{Position, ScaleOf, Snap, Vertex};
+use bytemuck::Pod;
+use core::marker::PhantomData;
+
+/// A stored depth: `u16` or `u32`, the whole range of the word from 0 (hither) to its maximum (far).
+pub trait DepthWord: Pod + Ord + Send + core::fmt::Debug {
+    /// Bits of the word.
+    #[doc(hidden)]
+    const BITS: u32;
+    /// The farthest depth, what a cleared buffer holds.
+    const FAR: Self;
+    /// The top bits of a running value.
+    #[doc(hidden)]
+    fn from_running(running: u32) -> Self;
+}
+
+impl DepthWord for u16 {
+    const BITS: u32 = 16;
+    const FAR: Self = Self::MAX;
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "the top 16 bits")]
+    fn from_running(running: u32) -> Self {
+        (running >> 16) as Self
+    }
+}
+
+impl DepthWord for u32 {
+    const BITS: Self = 32;
+    const FAR: Self = Self::MAX;
+
+    #[inline]
+    fn from_running(running: u32) -> Self {
+        running
+    }
+}
+
+/// Which fragments pass the depth test, as a type: [`Less`] or [`Always`].
+pub trait Compare: Copy + Default + core::fmt::Debug {
+    /// Whether a new depth replaces the stored one.
+    fn passes<W: DepthWord>(new: W, stored: W) -> bool;
+}
+
+/// Nearer passes: hidden surfaces are removed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Less;
+
+/// Everything passes: depth is only recorded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Always;
+
+impl Compare for Less {
+    #[inline]
+    fn passes<W: DepthWord>(new: W, stored: W) -> bool {
+        new < stored
+    }
+}
+
+impl Compare for Always {
+    #[inline]
+    fn passes<W: DepthWord>(_new: W, _stored: W) -> bool {
+        true
+    }
+}
+
+/// Where depth is kept, or not: [`NoDepth`] or [`DepthBuffer`].
+pub trait DepthTest: core::fmt::Debug {
+    /// Bits of a stored depth; 0 where there is none.
+    #[doc(hidden)]
+    const BITS: u32;
+
+    /// Tests `length` pixels from `(x, y)` of the buffer, nearest of two and stored where it passes: a running
+    /// value and its step a pixel. Yields whether each passes.
+    #[doc(hidden)]
+    fn test(
+        &mut self,
+        x: i32,
+        y: i32,
+        length: i32,
+        running: u32,
+        step: u32,
+    ) -> impl Iterator<Item = bool>;
+
+    /// Sets everything to the farthest depth.
+    fn clear(&mut self);
+}
+
+/// No depth: every fragment is drawn, and nothing is spent on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NoDepth;
+
+impl DepthTest for NoDepth {
+    const BITS: u32 = 0;
+
+    #[inline]
+    fn test(&mut self, _: i32, _: i32, _: i32, _: u32, _: u32) -> impl Iterator<Item = bool> {
+        core::iter::repeat(true)
+    }
+
+    #[inline]
+    fn clear(&mut self) {}
+}
+
+/// A depth buffer in words the caller lends.
+#[derive(Debug)]
+pub struct DepthBuffer<'a, W: DepthWord = u16, C: Compare = Less> {
+    words: &'a mut [W],
+    width: i32,
+    height: i32,
+    compare: PhantomData<C>,
+}
+
+impl<'a, W: DepthWord> DepthBuffer<'a, W> {
+    /// A `width x height` buffer, nearer passing, over the first `width * height` words. They keep what they hold; see
+    /// [`Frame::clear`](crate::Frame::clear).
+    ///
+    /// # Errors
+    ///
+    /// [`BufferSize`] where a side is 0 or there are fewer words.
+    pub fn try_new(words: &'a mut [W], width: u32, height: u32) -> Result<Self, BufferSize> {
+        let (width, height) = BufferSize::check(width, height, words.len())?;
+        Ok(Self {
+            words,
+            width,
+            height,
+            compare: PhantomData,
+        })
+    }
+}
+
+impl<'a, W: DepthWord, C: Compare> DepthBuffer<'a, W, C> {
+    /// The same with another comparison.
+    #[must_use]
+    pub fn with_compare<D: Compare>(self, _compare: D) -> DepthBuffer<'a, W, D> {
+        let Self {
+            words,
+            width,
+            height,
+            ..
+        } = self;
+        DepthBuffer {
+            words,
+            width,
+            height,
+            compare: PhantomData,
+        }
+    }
+
+    /// Width and height in pixels.
+    #[must_use]
+    pub(crate) const fn size(&self) -> (i32, i32) {
+        (self.width, self.height)
+    }
+
+    /// The stored words, row by row from the top.
+    #[must_use]
+    pub fn words(&self) -> &[W] {
+        self.words
+    }
+
+    /// The buffer back.
+    #[must_use]
+    pub fn into_words(self) -> &'a mut [W] {
+        self.words
+    }
+}
+
+impl<W: DepthWord, C: Compare> DepthTest for DepthBuffer<'_, W, C> {
+    const BITS: u32 = W::BITS;
+
+    #[inline]
+    fn test(
+        &mut self,
+        x: i32,
+        y: i32,
+        length: i32,
+        mut running: u32,
+        step: u32,
+    ) -> impl Iterator<Item = bool> {
+        let start = index(y * self.width + x);
+        let words = self
+            .words
+            .get_mut(start..start.saturating_add(index(length)));
+        words.unwrap_or_default().iter_mut().map(move |stored| {
+            let depth = W::from_running(running);
+            running = running.wrapping_add(step);
+            let passes = C::passes(depth, *stored);
+            if passes {
+                *stored = depth;
+            }
+            passes
+        })
+    }
+
+    fn clear(&mut self) {
+        self.words.fill(W::FAR);
+    }
+}
+
+/// The depth of one triangle: `z / w` as a linear function of the edge functions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DepthPlane {
+    /// Running units a unit of `E_i`, and whether negative.
+    weights: [(Scale, bool); 3],
+    /// Running units a pixel along a row.
+    step: i64,
+    /// What rounds a running value to a stored one.
+    half: i64,
+}
+
+/// A run of depths along a row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DepthRun {
+    /// At the first pixel, with the rounding in it; any size.
+    first: i64,
+    step: i64,
+    /// Whether all of the run is inside the range.
+    pub(crate) inside: bool,
+}
+
+impl DepthPlane {
+    /// A triangle's depth for words of `bits` bits, 1 to 32.
+    #[inline]
+    pub(crate) fn new<T: Snap, const N: usize, const P: usize>(
+        setup: &Setup,
+        vertices: [&Vertex<T, N, P>; 3],
+        bits: u32,
+    ) -> Self {
+        let full = Scale::of(((1 << bits) - 1) << (32 - bits)).times(setup.inverse);
+        let weights = vertices.map(|v| {
+            let ScaleOf(k) = v.position.scale();
+            let z = Scale::of(u64::from(v.z.unsigned_abs()));
+            let raw = Scale::power_of_two(i32::from(v.shift));
+            (z.times(k).times(raw).times(full), v.z < 0)
+        });
+        let step = combine(&weights, setup.a.map(|a| a << setup.step));
+        Self {
+            weights,
+            step,
+            half: (1i64 << (32 - bits)) >> 1,
+        }
+    }
+
+    /// The run of a span whose edge functions at its first pixel are `edges`.
+    #[inline]
+    pub(crate) fn run(&self, span: Span, edges: [i64; 3]) -> DepthRun {
+        let first = combine(&self.weights, edges).saturating_add(self.half);
+        let pixels = i64::from(span.x1 - 1 - span.x0);
+        let last = first.saturating_add(self.step.saturating_mul(pixels));
+        let fits = |v: i64| v >= 0 && v <= i64::from(u32::MAX);
+        DepthRun {
+            first,
+            step: self.step,
+            inside: fits(first) && fits(last),
+        }
+    }
+}
+
+impl DepthRun {
+    /// The run where there is no depth.
+    pub(crate) const NONE: Self = Self {
+        first: 0,
+        step: 0,
+        inside: true,
+    };
+
+    /// The running value at the first pixel, saturated, and the step. Where a run is inside the range, a step that does
+    /// not fit 32 bits belongs to a single pixel, and is not taken.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to 32 bits")]
+    #[expect(
+        clippy::cast_sign_loss,
+        reason = "clamped to positive; the step wraps by intent"
+    )]
+    pub(crate) fn running(&self) -> (u32, u32) {
+        (
+            self.first.clamp(0, i64::from(u32::MAX)) as u32,
+            low(self.step) as u32,
+        )
+    }
+}
+
+/// `sum(weight_i E_i)`, rounded, saturating.
+#[inline]
+fn combine(weights: &[(Scale, bool); 3], edges: [i64; 3]) -> i64 {
+    let [(s0, n0), (s1, n1), (s2, n2)] = *weights;
+    let term = |scale: Scale, negative: bool, edge: i64| {
+        let value = scale.apply(edge, 0);
+        if negative { -value } else { value }
+    };
+    let [e0, e1, e2] = edges;
+    term(s0, n0, e0)
+        .saturating_add(term(s1, n1, e1))
+        .saturating_add(term(s2, n2, e2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    #[test]
+    fn nearer_passes_and_is_stored() {
+        let mut words = [100u16, 100, 100, 100, 7];
+        let mut buffer = DepthBuffer::try_new(&mut words, 2, 2).unwrap();
+        let passed: Vec<bool> = buffer.test(0, 1, 2, 99 << 16, 1 << 16).collect();
+        assert_eq!(passed, [true, false]);
+        assert_eq!(buffer.into_words(), [100, 100, 99, 100, 7]);
+    }
+
+    #[test]
+    fn always_stores_the_farthest_too() {
+        let mut words = [u32::FAR; 4];
+        let mut buffer = DepthBuffer::try_new(&mut words, 4, 1)
+            .unwrap()
+            .with_compare(Always);
+        assert_eq!(buffer.test(1, 0, 2, u32::MAX, 0).filter(|p| *p).count(), 2);
+    }
+
+    #[test]
+    fn outside_of_the_buffer_nothing_is_touched() {
+        let mut words = [9u16; 4];
+        let mut buffer = DepthBuffer::try_new(&mut words, 2, 2).unwrap();
+        assert_eq!(buffer.test(0, 2, 2, 0, 0).count(), 0);
+        assert_eq!(buffer.test(-1, 0, 2, 0, 0).count(), 0);
+        buffer.clear();
+        assert_eq!(words, [u16::MAX; 4]);
+    }
+
+    #[test]
+    fn running_values_saturate() {
+        let run = |first: i64| {
+            DepthRun {
+                first,
+                step: -3,
+                inside: false,
+            }
+            .running()
+        };
+        assert_eq!(run(-1), (0, 3u32.wrapping_neg()));
+        assert_eq!(run(i64::MAX).0, u32::MAX);
+    }
+}

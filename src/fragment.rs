@@ -1,0 +1,145 @@
+//! Fragments: from interpolated varyings to a colour.
+
+use crate::color::{FromUnit, PixelFormat};
+use crate::texture::Texture;
+use fixed::types::I16F16;
+
+/// What is known of one covered pixel when it is shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Sample<const N: usize> {
+    /// Column, in the viewport's pixels.
+    pub x: i32,
+    /// Row, in the viewport's pixels, 0 on top.
+    pub y: i32,
+    /// The interpolated varyings.
+    pub varyings: [I16F16; N],
+}
+
+/// A shader: colours a pixel from `N` varyings.
+///
+/// The number of varyings is part of the type, so what a shader does not read costs nothing. A shader with one or more
+/// needs a frame with a hither plane.
+///
+/// ```
+/// use hither::{Fragment, Gray8, Sample};
+///
+/// /// Brightness by one varying in [0, 1].
+/// #[derive(Clone, Copy)]
+/// struct Glow;
+///
+/// impl Fragment<Gray8, 1> for Glow {
+///     fn shade(&self, sample: Sample<1>) -> Gray8 {
+///         Gray8((sample.varyings[0] * 255).round().to_num::<i32>().clamp(0, 255) as u8)
+///     }
+/// }
+/// ```
+pub trait Fragment<C: Copy, const N: usize>: Copy {
+    /// Whether a whole triangle has one colour, so that spans are filled; so for all with no varyings, unless a shader
+    /// looks at the pixel's position.
+    const UNIFORM: bool = N == 0;
+
+    /// The colour at a pixel.
+    fn shade(&self, sample: Sample<N>) -> C;
+
+    /// The shader of a face, by its index in the mesh; 0 for a single triangle.
+    #[inline]
+    #[must_use]
+    fn for_face(self, _index: usize) -> Self {
+        self
+    }
+}
+
+/// One colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Flat<C>(pub C);
+
+impl<C: Copy> Fragment<C, 0> for Flat<C> {
+    #[inline]
+    fn shade(&self, _: Sample<0>) -> C {
+        self.0
+    }
+}
+
+/// One colour a face. Faces beyond the end of the slice take the last colour.
+#[derive(Clone, Copy, Debug)]
+pub struct FaceColors<'a, C> {
+    colors: &'a [C],
+    current: C,
+}
+
+impl<'a, C: Copy> FaceColors<'a, C> {
+    /// Colours by face index; `None` where there are none.
+    #[must_use]
+    pub fn new(colors: &'a [C]) -> Option<Self> {
+        colors.last().map(|&current| Self { colors, current })
+    }
+}
+
+impl<C: Copy> Fragment<C, 0> for FaceColors<'_, C> {
+    #[inline]
+    fn shade(&self, _: Sample<0>) -> C {
+        self.current
+    }
+
+    #[inline]
+    fn for_face(self, index: usize) -> Self {
+        Self {
+            current: self.colors.get(index).copied().unwrap_or(self.current),
+            ..self
+        }
+    }
+}
+
+/// Colour from three varyings: red, green and blue in `[0, 1]`, each rounded to nearest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Gouraud;
+
+impl<C: FromUnit> Fragment<C, 3> for Gouraud {
+    #[inline]
+    fn shade(&self, sample: Sample<3>) -> C {
+        C::from_unit(sample.varyings)
+    }
+}
+
+/// Colour from a texture, nearest texel, by two varyings `u` and `v`: see [`Texture`].
+#[derive(Debug)]
+pub struct Textured<'a, F: PixelFormat>(pub Texture<'a, F>);
+
+impl<F: PixelFormat> Clone for Textured<'_, F> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<F: PixelFormat> Copy for Textured<'_, F> {}
+
+impl<F: PixelFormat> Fragment<F::Color, 2> for Textured<'_, F>
+where
+    F::Color: Default,
+{
+    #[inline]
+    fn shade(&self, sample: Sample<2>) -> F::Color {
+        let [u, v] = sample.varyings;
+        self.0.nearest(u, v).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_have_their_colours() {
+        assert!(FaceColors::<u8>::new(&[]).is_none());
+        let colors = FaceColors::new(&[3u8, 5]).unwrap();
+        let at = |i: usize| {
+            colors.for_face(i).shade(Sample {
+                x: 0,
+                y: 0,
+                varyings: [],
+            })
+        };
+        assert_eq!([0, 1, 2].map(at), [3, 5, 5]);
+    }
+}

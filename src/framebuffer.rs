@@ -1,0 +1,252 @@
+//! Where spans go: the target trait, and a framebuffer in memory.
+
+use crate::color::PixelFormat;
+use crate::math::index;
+
+/// What spans are drawn into.
+///
+/// The least an implementation needs is [`write`](Target::write): a run of pixels, some of them skipped. Memory
+/// that holds rows does better by [`fill`](Target::fill), for runs of one colour. Coordinates are the target's own,
+/// row 0 on top; the rasterizer never passes any outside of [`size`](Target::size).
+///
+/// ```
+/// use hither::{Flat, Frame, Rgb565, Target, Viewport};
+///
+/// /// Counts how often each pixel is drawn.
+/// struct Overdraw([[u8; 16]; 16]);
+///
+/// impl Target for Overdraw {
+///     type Color = ();
+///
+///     fn size(&self) -> (u32, u32) {
+///         (16, 16)
+///     }
+///
+///     fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<()>>) {
+///         for (count, color) in self.0[y][x..].iter_mut().zip(colors) {
+///             *count += color.is_some() as u8;
+///         }
+///     }
+/// }
+/// # let _ = Frame::new(Overdraw([[0; 16]; 16]));
+/// ```
+pub trait Target {
+    /// What a pixel is drawn with.
+    type Color: Copy;
+
+    /// Width and height in pixels.
+    fn size(&self) -> (u32, u32);
+
+    /// Writes pixels of row `y` from column `x` on, as many as `colors` yields, all inside of the target; those that are
+    /// `None` keep what they were.
+    fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<Self::Color>>);
+
+    /// Fills `length` pixels of row `y` from column `x` on with one colour.
+    #[inline]
+    fn fill(&mut self, x: usize, y: usize, length: usize, color: Self::Color) {
+        self.write(x, y, core::iter::repeat_n(Some(color), length));
+    }
+
+    /// Fills all of it with one colour.
+    fn clear(&mut self, color: Self::Color) {
+        let (width, height) = self.size();
+        for y in 0..height {
+            self.fill(0, y as usize, width as usize, color);
+        }
+    }
+}
+
+/// A framebuffer in words the caller lends, stored as `F`: rows from the top, without padding.
+#[derive(Debug)]
+pub struct Framebuffer<'a, F: PixelFormat> {
+    words: &'a mut [F::Word],
+    width: u32,
+    height: u32,
+}
+
+impl<'a, F: PixelFormat> Framebuffer<'a, F> {
+    /// A `width x height` buffer over the first `width * height` words, which keep what they hold.
+    ///
+    /// # Errors
+    ///
+    /// [`BufferSize`] where a side is 0 or there are fewer words.
+    pub fn try_new(words: &'a mut [F::Word], width: u32, height: u32) -> Result<Self, BufferSize> {
+        BufferSize::check(width, height, words.len())?;
+        Ok(Self {
+            words,
+            width,
+            height,
+        })
+    }
+
+    /// The pixels as they are stored, row by row from the top.
+    #[must_use]
+    pub fn words(&self) -> &[F::Word] {
+        self.words
+    }
+
+    /// The pixels as bytes in memory order: what an SPI driver or a DMA engine sends.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        let pixels = self.width as usize * self.height as usize;
+        bytemuck::cast_slice(self.words.get(..pixels).unwrap_or_default())
+    }
+
+    /// The colour at a pixel, or `None` outside of the buffer.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> Option<F::Color> {
+        let inside = x < self.width && y < self.height;
+        let at = y as usize * self.width as usize + x as usize;
+        self.words
+            .get(at)
+            .filter(|_| inside)
+            .map(|word| F::decode(*word))
+    }
+
+    /// The buffer back, for a flush or for text.
+    #[must_use]
+    pub fn into_words(self) -> &'a mut [F::Word] {
+        self.words
+    }
+
+    /// The words of row `y` from column `x` on, to the end of the buffer.
+    #[inline]
+    fn from(&mut self, x: usize, y: usize) -> &mut [F::Word] {
+        let start = y * self.width as usize + x;
+        self.words.get_mut(start..).unwrap_or_default()
+    }
+}
+
+impl<F: PixelFormat> Target for Framebuffer<'_, F> {
+    type Color = F::Color;
+
+    #[inline]
+    fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    #[inline]
+    fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<F::Color>>) {
+        for (word, color) in self.from(x, y).iter_mut().zip(colors) {
+            if let Some(color) = color {
+                *word = F::encode(color);
+            }
+        }
+    }
+
+    #[inline]
+    fn fill(&mut self, x: usize, y: usize, length: usize, color: F::Color) {
+        if let Some(run) = self.from(x, y).get_mut(..length) {
+            run.fill(F::encode(color));
+        }
+    }
+
+    fn clear(&mut self, color: F::Color) {
+        self.words.fill(F::encode(color));
+    }
+}
+
+/// A buffer does not hold the pixels it is said to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum BufferSize {
+    /// A side is 0, or the sides' product is over `i32::MAX`.
+    Sides {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// Fewer words than pixels.
+    Words {
+        /// Words that `width x height` pixels take.
+        needed: usize,
+        /// Words there are.
+        got: usize,
+    },
+}
+
+impl BufferSize {
+    /// The sides as coordinates, if `words` words hold that many pixels.
+    #[expect(
+        clippy::cast_possible_wrap,
+        reason = "sides whose product is at most i32::MAX"
+    )]
+    pub(crate) fn check(width: u32, height: u32, words: usize) -> Result<(i32, i32), Self> {
+        let pixels = u64::from(width) * u64::from(height);
+        let needed = usize::try_from(pixels).unwrap_or(usize::MAX);
+        if pixels == 0 || pixels > i32::MAX as u64 {
+            Err(Self::Sides { width, height })
+        } else if words < needed {
+            Err(Self::Words { needed, got: words })
+        } else {
+            Ok((width as i32, height as i32))
+        }
+    }
+}
+
+impl core::fmt::Display for BufferSize {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Sides { width, height } => {
+                write!(
+                    f,
+                    "a buffer of {width} x {height} pixels: sides are 1 or more"
+                )
+            }
+            Self::Words { needed, got } => {
+                write!(
+                    f,
+                    "a buffer of {needed} pixels in {got} words: a word a pixel is needed"
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for BufferSize {}
+
+/// The run of `x0 .. x1` as an index and a length, for coordinates that the viewport has bounded.
+#[inline]
+pub(crate) fn run(x0: i32, x1: i32) -> (usize, usize) {
+    (index(x0), index(x1 - x0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::{Rgb565, Rgb565Be};
+    use std::string::ToString;
+
+    #[test]
+    fn sizes_are_checked() {
+        let mut words = [0u16; 6];
+        assert!(Framebuffer::<Rgb565>::try_new(&mut words, 3, 2).is_ok());
+        let error = Framebuffer::<Rgb565>::try_new(&mut words, 3, 3).unwrap_err();
+        assert_eq!(error, BufferSize::Words { needed: 9, got: 6 });
+        assert_eq!(
+            error.to_string(),
+            "a buffer of 9 pixels in 6 words: a word a pixel is needed"
+        );
+        assert!(Framebuffer::<Rgb565>::try_new(&mut words, 0, 3).is_err());
+        let error = Framebuffer::<Rgb565>::try_new(&mut words, u32::MAX, u32::MAX).unwrap_err();
+        assert!(matches!(error, BufferSize::Sides { .. }));
+    }
+
+    #[test]
+    fn runs_are_written_where_they_belong() {
+        let mut words = [0u16; 6];
+        let mut buffer = Framebuffer::<Rgb565Be>::try_new(&mut words, 3, 2).unwrap();
+        buffer.fill(1, 0, 2, Rgb565(0x1234));
+        buffer.write(0, 1, [Some(Rgb565(1)), None, Some(Rgb565(2))].into_iter());
+        assert_eq!(
+            buffer.bytes(),
+            [0, 0, 0x12, 0x34, 0x12, 0x34, 0, 1, 0, 0, 0, 2]
+        );
+        assert_eq!(buffer.pixel(2, 1), Some(Rgb565(2)));
+        assert_eq!(buffer.pixel(3, 0), None);
+        buffer.fill(2, 1, 2, Rgb565(7));
+        assert_eq!(buffer.into_words()[5], 2u16.to_be());
+    }
+}

@@ -1,0 +1,436 @@
+//! Attributes across a triangle: perspective-correct per pixel, every N pixels, or not at all.
+//!
+//! At a pixel in front of a hither plane `h`, vertex `i` has the weight `beta_i = h k_i E_i / D`, where `E_i >= 0`
+//! are the edge functions, `k_i > 0` the vertices' scales, and `sum(beta_i) = h / w = q` (Olano & Greer 1997,
+//! section 4.1 and equation 4: `1/w` is set up from `[k_i]`, an attribute from `[k_i u_i]`). So every weight is in
+//! `[0, 1]`, for any signs of the vertices' `w`, and `u = u_0 + sum((u_i - u_0) beta_i) / q` stays between the
+//! vertices' values. Affine (section 6, equation 5) takes `[k_i w_i u_i]` instead: then `q` is 1.
+//!
+//! Formats: weights Q32 in `i64`; `q` and the numerators `n` Q30 in `i32`, where `n` is in units of `2^e`, the
+//! power of two at or above the largest `|u_i - u_0|`; so `|n| <= q <= 1`.
+//!
+//! Error budget in the exact tier, in units of the attribute's range, at `w = 4096 h` (`q = 2^-12`):
+//! - a block of [`BLOCK`] = 64 pixels starts from the exact edge functions: weights within 2^-29 of
+//!   themselves and 2^-33, `n` and `q` within 2^-30;
+//! - a pixel's step is rounded to 2^-31, so 63 steps add 2^-25 to `n` and to `q`;
+//! - both divided by `q`: 2 (2^-25 + 2^-30) / 2^-12 < 2^-11.9; the reciprocal adds 2^-29.
+//!
+//! That is a quarter of the contract's 2^-10. Farther than 4096 hither distances it grows with `w`.
+
+use crate::clip::{Hither, WRange};
+use crate::math::{Scale, low, reciprocal, saturate, shr_round};
+use crate::setup::Setup;
+use crate::span::Span;
+use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
+use fixed::types::I16F16;
+
+/// Pixels that are stepped from one exact start, where each is divided.
+pub(crate) const BLOCK: i32 = 64;
+
+/// One, Q30.
+const ONE: i32 = 1 << 30;
+
+/// Which `w` ranges varyings can be interpolated over: a fragment with varyings needs a hither
+/// plane; one without goes with any range.
+pub trait Interpolates<const N: usize>: WRange {
+    /// The hither plane, if there is one.
+    #[doc(hidden)]
+    fn hither(&self) -> Option<Hither> {
+        None
+    }
+}
+
+impl Interpolates<0> for crate::clip::NoHither {}
+impl Interpolates<0> for crate::clip::BothSides {}
+
+impl<const N: usize> Interpolates<N> for Hither {
+    #[inline]
+    fn hither(&self) -> Option<Hither> {
+        Some(*self)
+    }
+}
+
+/// How varyings are corrected for perspective: [`Perspective`], [`PerspectiveEvery`] or [`Affine`].
+pub trait Correction: Copy + Default + core::fmt::Debug {
+    /// Pixels between two divisions: 1, or the length of a straight piece.
+    const EVERY: i32;
+    /// Whether triangles wholly in front of the hither plane are interpolated linearly on the screen.
+    const AFFINE: bool;
+}
+
+/// Each pixel is divided: within 2^-10 of an attribute's range for `w` up to 4096 hither distances.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Perspective;
+
+/// Two divisions every `N` pixels, straight lines between: `N` is 2 to 64.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PerspectiveEvery<const N: u8>;
+
+/// No correction: linear on the screen, for triangles with no vertex behind the hither plane. Another
+/// triangle is divided at each pixel, and counted in [`Counts`](crate::Counts)` ::fallbacks`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Affine;
+
+impl Correction for Perspective {
+    const EVERY: i32 = 1;
+    const AFFINE: bool = false;
+}
+
+impl<const N: u8> Correction for PerspectiveEvery<N> {
+    const EVERY: i32 = {
+        assert!(N >= 2 && N <= 64, "PerspectiveEvery<N>: N is 2 to 64");
+        N as i32
+    };
+    const AFFINE: bool = false;
+}
+
+impl Correction for Affine {
+    const EVERY: i32 = 1;
+    const AFFINE: bool = true;
+}
+
+/// How one triangle's varyings run along a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// Linear on the screen: affine, or all `w` are the same.
+    Linear,
+    /// `n / q` at each pixel.
+    Divided,
+    /// `n / q` at the ends of straight pieces.
+    Pieces,
+}
+
+/// The varyings of one triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Varyings<const N: usize> {
+    pub(crate) mode: Mode,
+    /// Whether affine was asked for and could not be had.
+    pub(crate) fallback: bool,
+    /// Weight of vertex `i` is `scale[i] E_i`.
+    scale: [Scale; 3],
+    /// `q` a pixel, Q30.
+    q_step: i32,
+    each: [Varying; N],
+}
+
+/// One varying: its value at vertex 0, and how the numerator is made from the other two's weights.
+#[derive(Clone, Copy, Debug, Default)]
+struct Varying {
+    /// Raw Q16.16.
+    base: i32,
+    /// `u_i - u_0` for vertices 1 and 2, Q30 in units of `2^exponent`.
+    differences: [i32; 2],
+    /// 0 to 32: units of raw Q16.16.
+    exponent: u32,
+    /// The numerator's step a pixel, Q30, saturated.
+    step: i32,
+}
+
+impl Varying {
+    /// From the vertices' values and the weights' steps along a row.
+    #[inline]
+    fn new([u0, u1, u2]: [i32; 3], weight_steps: [i64; 3]) -> Self {
+        let difference = |u: i32| i64::from(u) - i64::from(u0);
+        let both = [difference(u1), difference(u2)];
+        let largest = both[0].unsigned_abs().max(both[1].unsigned_abs());
+        let exponent = 64 - largest.saturating_sub(1).leading_zeros();
+        let differences = both.map(|d| low(shr_round(d << 30, exponent)));
+        let mut varying = Self {
+            base: u0,
+            differences,
+            exponent,
+            step: 0,
+        };
+        varying.step = varying.numerator(weight_steps);
+        varying
+    }
+
+    /// `sum((u_i - u_0) weight_i)`, Q30, saturated. Weights are Q32, below 1 + 2^-20 in magnitude.
+    #[inline]
+    fn numerator(&self, [_, b1, b2]: [i64; 3]) -> i32 {
+        let [d1, d2] = self.differences.map(i64::from);
+        saturate(shr_round(d1 * b1 + d2 * b2, 32))
+    }
+
+    /// The value for a quotient `n / q`, Q30 in `[-1, 1]`.
+    #[inline]
+    fn value(&self, quotient: i32) -> I16F16 {
+        let offset = shr_round(i64::from(quotient) << self.exponent, 30);
+        I16F16::from_bits(saturate(i64::from(self.base) + offset))
+    }
+}
+
+/// `n / q`, Q30, clamped to `[-1, 1]`; `q <= 0` counts as 2^-30.
+#[inline]
+fn quotient(n: i32, q: i32) -> i32 {
+    let q = q.max(1).unsigned_abs();
+    let zeros = q.leading_zeros();
+    // 2^63 / (q 2^zeros): the product is n / q in Q(63 - zeros).
+    let product = i64::from(n) * i64::from(reciprocal(q << zeros));
+    low((product >> (33 - zeros)).clamp(-i64::from(ONE), i64::from(ONE)))
+}
+
+impl<const N: usize> Varyings<N> {
+    /// Sets up a triangle's varyings for a range that has a hither plane.
+    #[inline]
+    pub(crate) fn new<T: Snap, C: Correction, const P: usize>(
+        setup: &Setup,
+        vertices: [&Vertex<T, N, P>; 3],
+        hither: Hither,
+        outside: Outside,
+    ) -> Self {
+        let crosses = outside.0 & Outside::HITHER != 0;
+        let mode = if (C::AFFINE && !crosses) || same_w(vertices) {
+            Mode::Linear
+        } else if C::EVERY > 1 {
+            Mode::Pieces
+        } else {
+            Mode::Divided
+        };
+        let scale = vertices.map(|v| {
+            let scale = if mode == Mode::Linear {
+                Scale::of(u64::from(v.position.scaled_w().unsigned_abs()))
+            } else {
+                let ScaleOf(k) = v.position.scale();
+                k.times(Scale::of(u64::from(hither.raw().unsigned_abs())))
+            };
+            scale.times(setup.inverse)
+        });
+        let steps = weights(&scale, setup.a.map(|a| a << setup.step));
+        let q_step = saturate(shr_round(steps[0] + steps[1] + steps[2], 2));
+        let [v0, v1, v2] = vertices.map(|v| v.varyings);
+        let mut each = [Varying::default(); N];
+        for (((varying, u0), u1), u2) in each.iter_mut().zip(v0).zip(v1).zip(v2) {
+            *varying = Varying::new([u0, u1, u2].map(I16F16::to_bits), steps);
+        }
+        Self {
+            mode,
+            fallback: C::AFFINE && mode != Mode::Linear,
+            scale,
+            q_step,
+            each,
+        }
+    }
+
+    /// Numerators and `q` where the edge functions have these values.
+    #[inline]
+    fn at(&self, edges: [i64; 3]) -> ([i32; N], i32) {
+        let weights = weights(&self.scale, edges);
+        let q = saturate(shr_round(weights[0] + weights[1] + weights[2], 2));
+        (self.each.map(|v| v.numerator(weights)), q)
+    }
+
+    /// Quotients where the edge functions have these values.
+    #[inline]
+    fn quotients(&self, edges: [i64; 3]) -> [i32; N] {
+        let (n, q) = self.at(edges);
+        if self.mode == Mode::Linear {
+            n
+        } else {
+            n.map(|n| quotient(n, q))
+        }
+    }
+
+    /// The straight line through a block, whose edge functions at its first pixel are `edges`.
+    #[inline]
+    pub(crate) fn ramp(&self, setup: &Setup, block: Span, edges: [i64; 3]) -> Ramp<'_, N> {
+        let quotients = self.quotients(edges);
+        let steps = if self.mode == Mode::Linear {
+            self.each.map(|v| v.step)
+        } else {
+            let last = self.quotients(setup.edges_at(block.x1 - 1, block.y));
+            let mut steps = [0; N];
+            for ((step, last), first) in steps.iter_mut().zip(last).zip(quotients) {
+                *step = per_pixel(last, first, block.x1 - 1 - block.x0);
+            }
+            steps
+        };
+        Ramp {
+            varyings: self,
+            quotients,
+            steps,
+        }
+    }
+
+    /// The divided run of a block, whose edge functions at its first pixel are `edges`.
+    #[inline]
+    pub(crate) fn divided(&self, edges: [i64; 3]) -> Divided<'_, N> {
+        let (n, q) = self.at(edges);
+        Divided {
+            varyings: self,
+            n,
+            q,
+        }
+    }
+}
+
+/// `(last - first) / steps`, rounded towards minus infinity; 0 for a single pixel.
+#[inline]
+fn per_pixel(last: i32, first: i32, steps: i32) -> i32 {
+    /// `ceil(2^32 / n)` for n of 0 to 63; 0 and 1 are not looked up.
+    const INVERSE: [u32; 64] = inverses();
+    let difference = i64::from(last) - i64::from(first);
+    if steps <= 1 {
+        return if steps == 1 { saturate(difference) } else { 0 };
+    }
+    let inverse = INVERSE.get(crate::math::index(steps)).copied().unwrap_or(0);
+    low((difference * i64::from(inverse)) >> 32)
+}
+
+/// The table of [`per_pixel`].
+#[expect(
+    clippy::indexing_slicing,
+    reason = "n is below the length; evaluated at compile time"
+)]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "at most 2^31 from n = 2 on"
+)]
+const fn inverses() -> [u32; 64] {
+    let mut table = [0; 64];
+    let mut n = 2;
+    while n < 64 {
+        table[n] = (1u64 << 32).div_ceil(n as u64) as u32;
+        n += 1;
+    }
+    table
+}
+
+/// Weights from edge functions, or their steps, Q32. On a row of two covered pixels or more both are at
+/// most 1 in magnitude; steeper steps are never taken, so they are clamped.
+#[inline]
+fn weights(scale: &[Scale; 3], edges: [i64; 3]) -> [i64; 3] {
+    const LIMIT: i64 = (1 << 32) - 1;
+    let ([s0, s1, s2], [e0, e1, e2]) = (scale, edges);
+    [s0.apply(e0, 32), s1.apply(e1, 32), s2.apply(e2, 32)].map(|w| w.clamp(-LIMIT, LIMIT))
+}
+
+/// Whether the vertices have the same `w`, to the bit, so that `q` is constant.
+#[inline]
+fn same_w<T: Snap, const N: usize, const P: usize>([a, b, c]: [&Vertex<T, N, P>; 3]) -> bool {
+    let w = |v: &Vertex<T, N, P>| {
+        let ScaleOf(k) = v.position.scale();
+        (k, v.position.scaled_w())
+    };
+    w(a) == w(b) && w(b) == w(c)
+}
+
+/// A run of pixels with varyings: what the fragment loop steps along.
+pub(crate) trait Run<const N: usize> {
+    /// The varyings at this pixel.
+    fn varyings(&self) -> [I16F16; N];
+    /// To the next pixel.
+    fn step(&mut self);
+}
+
+/// Varyings along a straight line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ramp<'a, const N: usize> {
+    varyings: &'a Varyings<N>,
+    quotients: [i32; N],
+    steps: [i32; N],
+}
+
+/// Varyings divided at each pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Divided<'a, const N: usize> {
+    varyings: &'a Varyings<N>,
+    n: [i32; N],
+    q: i32,
+}
+
+/// Values of the varyings for their quotients.
+#[inline]
+fn values<const N: usize>(each: &[Varying; N], quotients: [i32; N]) -> [I16F16; N] {
+    let mut values = [I16F16::ZERO; N];
+    for ((value, varying), quotient) in values.iter_mut().zip(each).zip(quotients) {
+        *value = varying.value(quotient);
+    }
+    values
+}
+
+impl<const N: usize> Run<N> for Ramp<'_, N> {
+    #[inline]
+    fn varyings(&self) -> [I16F16; N] {
+        values(&self.varyings.each, self.quotients)
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        for (quotient, step) in self.quotients.iter_mut().zip(self.steps) {
+            // After the last pixel the sum may pass the range; it is not looked at.
+            *quotient = quotient.wrapping_add(step);
+        }
+    }
+}
+
+impl<const N: usize> Run<N> for Divided<'_, N> {
+    #[inline]
+    fn varyings(&self) -> [I16F16; N] {
+        values(&self.varyings.each, self.n.map(|n| quotient(n, self.q)))
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        for (n, varying) in self.n.iter_mut().zip(&self.varyings.each) {
+            *n = n.wrapping_add(varying.step);
+        }
+        self.q = self.q.wrapping_add(self.varyings.q_step);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotients_are_close_and_clamped() {
+        for i in 0..60_000i64 {
+            let q = (1 + (i * 7_919_777) % i64::from(ONE)) >> (i % 20);
+            let n = (i * 104_729_777) % (q + 1);
+            for n in [n, -n] {
+                let (n, q) = (n as i32, (q as i32).max(1));
+                let exact = f64::from(n) / f64::from(q);
+                let got = f64::from(quotient(n, q)) / f64::from(ONE);
+                assert!((exact - got).abs() < 2f64.powi(-28), "{n} / {q} = {got}");
+            }
+        }
+        assert_eq!(quotient(ONE, 1), ONE);
+        assert_eq!(quotient(i32::MIN, 7), -ONE);
+        assert_eq!(quotient(5, -3), ONE);
+        assert_eq!(quotient(0, 0), 0);
+    }
+
+    #[test]
+    fn constant_varyings_stay_constant() {
+        for u in [i32::MIN, -1, 0, 1, i32::MAX] {
+            let varying = Varying::new([u; 3], [1 << 32, -(1 << 31), 77]);
+            for weights in [[0, 0, 0], [1 << 32, 0, 0], [5, 1 << 31, 1 << 31]] {
+                let n = varying.numerator(weights) + varying.step;
+                assert_eq!(varying.value(quotient(n, 12_345)).to_bits(), u);
+            }
+        }
+    }
+
+    #[test]
+    fn differences_of_the_whole_range_reach_both_ends() {
+        let varying = Varying::new([i32::MIN, i32::MAX, 0], [0; 3]);
+        let at = |b1: i64, b2: i64| {
+            let n = varying.numerator([0, b1, b2]);
+            i64::from(varying.value(n).to_bits())
+        };
+        assert!((at(1 << 32, 0) - i64::from(i32::MAX)).abs() <= 4);
+        assert!(at(0, 1 << 32).abs() <= 4);
+        assert_eq!(at(0, 0), i64::from(i32::MIN));
+    }
+
+    #[test]
+    fn pieces_end_where_they_should() {
+        for steps in 1..64 {
+            for difference in [-ONE, -1, 0, 1, 77_777, ONE] {
+                let step = per_pixel(difference, 0, steps);
+                assert!((i64::from(step) * i64::from(steps) - i64::from(difference)).abs() <= 64);
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Textures: borrowed texels, sampled nearest.
+
+use crate::color::PixelFormat;
+use fixed::types::I16F16;
+
+/// A texture of `width x height` texels stored as `F`, rows from the top, in flash or RAM.
+///
+/// Coordinates `u`, `v` are in `[0, 1]` across it, v down; outside, it repeats, for negative ones too. Sides need not be
+/// powers of two.
+#[derive(Debug)]
+pub struct Texture<'a, F: PixelFormat> {
+    texels: &'a [F::Word],
+    width: u32,
+    height: u32,
+}
+
+impl<F: PixelFormat> Clone for Texture<'_, F> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<F: PixelFormat> Copy for Texture<'_, F> {}
+
+impl<'a, F: PixelFormat> Texture<'a, F> {
+    /// The largest side, in texels: a texel is then 1 / 2^4 of the coordinates' own precision.
+    pub const MAX_SIDE: u32 = 4096;
+
+    /// A texture over exactly `width * height` words.
+    ///
+    /// # Errors
+    ///
+    /// [`TextureSize`] where a side is 0 or over [`Texture::MAX_SIDE`], or the number of words differs.
+    pub const fn try_new(
+        texels: &'a [F::Word],
+        width: u32,
+        height: u32,
+    ) -> Result<Self, TextureSize> {
+        let sides = width >= 1 && width <= Self::MAX_SIDE && height >= 1;
+        let fits = sides && height <= Self::MAX_SIDE && texels.len() == (width * height) as usize;
+        if fits {
+            Ok(Self {
+                texels,
+                width,
+                height,
+            })
+        } else {
+            Err(TextureSize {
+                width,
+                height,
+                words: texels.len(),
+            })
+        }
+    }
+
+    /// Width and height in texels.
+    #[must_use]
+    pub const fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// The texel that holds `(u, v)`.
+    #[inline]
+    #[must_use]
+    pub fn nearest(&self, u: I16F16, v: I16F16) -> Option<F::Color> {
+        let column = texel(u, self.width);
+        let row = texel(v, self.height);
+        let at = row as usize * self.width as usize + column as usize;
+        self.texels.get(at).map(|word| F::decode(*word))
+    }
+}
+
+/// The texel of `0 .. side` that a coordinate falls in: its fraction times the side. Two's complement makes the
+/// fraction of a negative coordinate count from the next lower integer, which is what repeating means.
+#[inline]
+#[expect(clippy::cast_sign_loss, reason = "16 bits, masked")]
+fn texel(coordinate: I16F16, side: u32) -> u32 {
+    ((coordinate.to_bits() & 0xffff) as u32 * side) >> 16
+}
+
+/// A texture is not the size it is said to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TextureSize {
+    /// Texels.
+    pub width: u32,
+    /// Texels.
+    pub height: u32,
+    /// Words there are.
+    pub words: usize,
+}
+
+impl core::fmt::Display for TextureSize {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self {
+            width,
+            height,
+            words,
+        } = self;
+        write!(
+            f,
+            "a texture of {width} x {height} texels in {words} words: sides are 1 to 4096, a word a texel"
+        )
+    }
+}
+
+impl core::error::Error for TextureSize {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Gray8;
+
+    #[test]
+    fn coordinates_repeat_both_ways() {
+        let at = |u: f64| texel(I16F16::from_num(u), 3);
+        assert_eq!([0.0, 0.34, 0.99, 1.0, 5.5].map(at), [0, 1, 2, 0, 1]);
+        assert_eq!([-0.01, -0.34, -0.99, -1.0].map(at), [2, 1, 0, 0]);
+    }
+
+    #[test]
+    fn sizes_are_checked() {
+        let words = [1u8, 2, 3, 4, 5, 6];
+        let texture = Texture::<Gray8>::try_new(&words, 3, 2).unwrap();
+        let half = I16F16::from_num(0.5);
+        assert_eq!(texture.nearest(half, half), Some(Gray8(5)));
+        for (width, height) in [(3, 3), (0, 0), (2, 2), (4097, 1), (u32::MAX, u32::MAX)] {
+            let error = Texture::<Gray8>::try_new(&words, width, height).unwrap_err();
+            assert_eq!(
+                error,
+                TextureSize {
+                    width,
+                    height,
+                    words: 6
+                }
+            );
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! Vertices: clip space in, snapped to a grid once, and what the stages after need of each.
+//!
+//! A vertex is snapped by itself, never as part of a triangle, so that every triangle that shares it
+//! sees the same numbers and a mesh stays closed (Olano & Greer 1997, section 5.2). A snapped
+//! vertex is a homogeneous point: it may be scaled by any positive `k` without moving on the
+//! screen, and all that is linear over the triangle is scaled with it.
+
+mod exact;
+mod quick;
+mod viewport;
+
+pub use exact::{Exact, ExactPosition};
+pub(crate) use quick::{GUARD_BAND, HOMOGENEOUS_BITS};
+pub use quick::{Quick, QuickPosition};
+pub use viewport::{Rect, Viewport, ViewportSize};
+
+use crate::math::{Scale, bits, high, low, shr_round};
+use fixed::types::I16F16;
+
+/// A point in clip space: `x / w` and `y / w` in `[-1, 1]` are on the screen, y up, and `z / w` is 0 on
+/// the hither plane and 1 at far.
+///
+/// The four share one scale, which needs no meaning of its own: `(x, y, z, w)` and `(k x, k y, k z,
+/// k w)` are the same pixel for any positive `k`. The hither distance is in the units of `w`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ClipVertex {
+    /// Raw Q16.16 coordinates, shifted right together by `shift`.
+    pub(crate) raw: [i32; 4],
+    /// 0 to 32: larger than 0 only where a transform left the range of Q16.16.
+    pub(crate) shift: u8,
+}
+
+impl ClipVertex {
+    /// From clip-space coordinates, any values.
+    #[inline]
+    #[must_use]
+    pub const fn new(x: I16F16, y: I16F16, z: I16F16, w: I16F16) -> Self {
+        Self {
+            raw: [x.to_bits(), y.to_bits(), z.to_bits(), w.to_bits()],
+            shift: 0,
+        }
+    }
+
+    /// From raw Q16.16 coordinates of up to 63 bits. Where one does not fit 32 bits, all four are shifted
+    /// right together, rounded to nearest, so the point stays where it is.
+    #[inline]
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "at most 33")]
+    pub fn from_wide(raw: [i64; 4]) -> Self {
+        let magnitude = raw.map(i64::unsigned_abs);
+        let all = magnitude[0] | magnitude[1] | magnitude[2] | magnitude[3];
+        if high(all) == 0 && all >> 31 == 0 {
+            return Self {
+                raw: raw.map(low),
+                shift: 0,
+            };
+        }
+        // One bit to spare: rounding up may carry.
+        let shift = (64 - all.leading_zeros()).saturating_sub(30);
+        Self {
+            raw: raw.map(|v| low(shr_round(v, shift))),
+            shift: shift as u8,
+        }
+    }
+
+    /// `w` in raw Q16.16, before the shift.
+    #[inline]
+    pub(crate) const fn wide_w(&self) -> i64 {
+        (self.raw[3] as i64) << self.shift
+    }
+}
+
+/// A snap of vertices to a grid: the part of a tier that looks at one vertex alone.
+pub trait Snap: Copy + Send + core::fmt::Debug + Default + 'static {
+    /// The snapped position.
+    type Position: Position;
+
+    /// Snaps a vertex. `hither` is the least raw `w` that may be projected: the hither distance, or 1.
+    fn snap(vertex: &ClipVertex, hither: i64, viewport: &Viewport) -> Self::Position;
+}
+
+/// A snapped position: a homogeneous point on the tier's grid.
+pub trait Position: Copy + Send + core::fmt::Debug + PartialEq {
+    /// The point that is no point: all zero.
+    const EMPTY: Self;
+
+    /// The snapped point, exactly what coverage is decided from.
+    fn homogeneous(&self) -> Snapped;
+
+    /// `k`, by which the true vertex was scaled, to one part in 2^29; relative to raw Q16.16.
+    #[doc(hidden)]
+    fn scale(&self) -> ScaleOf;
+
+    /// `k w` in the units of `scale`, rounded as the grid rounds it.
+    #[doc(hidden)]
+    fn scaled_w(&self) -> i32;
+}
+
+/// An opaque positive real, for [`Position`].
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct ScaleOf(pub(crate) Scale);
+
+/// A snapped point, exactly what coverage is decided from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Snapped {
+    /// `(x, y, w)` in clip space: `x / w` and `y / w` are normalized device coordinates, y up. The grid
+    /// step is 1; `2^shift` of these make one unit of the raw coordinates that went in.
+    Homogeneous {
+        /// Integer coordinates `[x, y, w]`.
+        point: [i32; 3],
+        /// `point` is the raw vertex times `2^shift`.
+        shift: i32,
+    },
+    /// A position on the screen, `w > 0`.
+    Projected {
+        /// Pixels from the top left corner times `2^subpixel_bits`, y down.
+        point: [i32; 2],
+        /// Fraction bits of `point`.
+        subpixel_bits: u32,
+    },
+}
+
+/// What the rest of the pipeline keeps of a vertex: the snapped position, its depth, where it lies, its
+/// `N` varyings and its distances from `P` clip planes. This is what a vertex cache holds:
+/// `size_of::<Vertex<..>>()` bytes each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex<T: Snap, const N: usize = 0, const P: usize = 0> {
+    pub(crate) position: T::Position,
+    /// Clip-space z, raw Q16.16 shifted right by `shift`.
+    pub(crate) z: i32,
+    pub(crate) shift: u8,
+    pub(crate) outside: Outside,
+    pub(crate) varyings: [I16F16; N],
+    /// Raw `n . p`, positive inside; one each clip plane.
+    pub(crate) distances: [i64; P],
+}
+
+impl<T: Snap, const N: usize, const P: usize> Vertex<T, N, P> {
+    /// A vertex that draws nothing: what a cache is filled with before its first use.
+    pub const EMPTY: Self = Self {
+        position: T::Position::EMPTY,
+        z: 0,
+        shift: 0,
+        outside: Outside(0),
+        varyings: [I16F16::ZERO; N],
+        distances: [0; P],
+    };
+
+    /// The snapped position, as coverage sees it.
+    #[inline]
+    #[must_use]
+    pub fn snapped(&self) -> Snapped {
+        self.position.homogeneous()
+    }
+
+    /// The varyings that came with the vertex.
+    #[inline]
+    #[must_use]
+    pub const fn varyings(&self) -> &[I16F16; N] {
+        &self.varyings
+    }
+}
+
+/// Which bounds a vertex lies beyond, a bit each. A triangle whose three vertices share a bit shows
+/// nothing in front of the eye: each bound is linear over the triangle, whatever the signs of `w`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Outside(pub(crate) u16);
+
+impl Outside {
+    /// `w` below the hither distance, or not positive where there is no plane.
+    pub(crate) const HITHER: u16 = 1;
+    /// The four sides of the viewport.
+    pub(crate) const SIDES: u16 = 0b1_1110;
+    /// The first clip plane; the others follow.
+    pub(crate) const FIRST_PLANE: u16 = 1 << 5;
+    /// All planes that clip.
+    pub(crate) const CLIPS: u16 = !Self::SIDES;
+
+    /// The outcodes of a vertex against the eye or hither plane, and the viewport's sides.
+    #[inline]
+    pub(crate) fn of(vertex: &ClipVertex, hither: i64) -> Self {
+        let [x, y, _, w] = vertex.raw.map(i64::from);
+        let bit = |outside: bool, n: u16| u16::from(outside) << n;
+        Self(
+            bit(vertex.wide_w() < hither, 0)
+                | bit(x + w < 0, 1)
+                | bit(w - x < 0, 2)
+                | bit(y + w < 0, 3)
+                | bit(w - y < 0, 4),
+        )
+    }
+}
+
+/// By how much to shift so that the largest of `magnitudes` fits `limit_bits` bits: positive to the
+/// left, negative to the right. `2^limit_bits` itself fits.
+#[inline]
+pub(crate) fn shift_to_fit(magnitudes: [u32; 3], limit_bits: u32) -> i32 {
+    let largest = magnitudes[0].max(magnitudes[1]).max(magnitudes[2]);
+    let length = 32 - largest.saturating_sub(1).leading_zeros();
+    bits(limit_bits) - bits(length)
+}
+
+/// `v * 2^shift`, rounded to nearest on the right. The caller's shift keeps the result in 32 bits.
+#[inline]
+#[expect(
+    clippy::cast_sign_loss,
+    reason = "both casts are of what was tested to be positive"
+)]
+pub(crate) fn shift_round(v: i32, shift: i32) -> i32 {
+    if shift >= 0 {
+        v << shift
+    } else {
+        low(shr_round(i64::from(v), -shift as u32))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wide_coordinates_shift_together() {
+        let v = ClipVertex::from_wide([1 << 40, -(1 << 39), 3, i64::from(i32::MAX)]);
+        assert_eq!(v.shift, 11);
+        assert_eq!(v.raw, [1 << 29, -(1 << 28), 0, 1 << 20]);
+        let near = ClipVertex::from_wide([i64::from(i32::MAX), i64::from(-i32::MAX), 0, 1]);
+        assert_eq!((near.shift, near.raw), (0, [i32::MAX, -i32::MAX, 0, 1]));
+        let extreme = ClipVertex::from_wide([i64::MIN, i64::MAX, 0, 1]);
+        assert_eq!(extreme.shift, 34);
+        assert_eq!(extreme.raw, [-(1 << 29), 1 << 29, 0, 0]);
+    }
+
+    #[test]
+    fn shift_to_fit_keeps_the_limit_itself() {
+        assert_eq!(shift_to_fit([1 << 20, 0, 0], 20), 0);
+        assert_eq!(shift_to_fit([(1 << 20) + 1, 0, 0], 20), -1);
+        assert_eq!(shift_to_fit([0, 1, 0], 20), 20);
+        assert_eq!(shift_to_fit([0, 0, 1 << 31], 20), -11);
+        assert_eq!(shift_to_fit([0, 0, 0], 20), 20);
+    }
+}

@@ -1,0 +1,336 @@
+//! The quick tiers' snap: projected to 4 or 8 subpixel bits, homogeneous where it cannot be.
+//!
+//! A vertex with `w` at or beyond the hither distance (`w > 0` where there is none) and within the guard
+//! band of 1024 px around the viewport's corner is projected: one reciprocal, rounded to the nearest
+//! subpixel. Any other is kept homogeneous, 14 bits and a sign, in pixel space
+//! `(W (x + w), H (w - y), 2 w)`. The vertex decides, from its unsnapped values, never the
+//! triangle, so the edge that two triangles share is the same edge to the bit.
+
+use super::exact::first_centre;
+use super::{ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, shift_round, shift_to_fit};
+use crate::math::{Scale, bits, high, low, reciprocal};
+
+/// A quick tier with `BITS` subpixel bits: 4 or 8. Coverage is exact on the snapped vertices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Quick<const BITS: u32>;
+
+/// A projected vertex is at most this far from the viewport's top left corner, in pixels an axis.
+pub(crate) const GUARD_BAND: i64 = 1024;
+
+/// Homogeneous coordinates are below `2^14` in magnitude.
+pub(crate) const HOMOGENEOUS_BITS: u32 = 14;
+
+/// A vertex on a quick tier's grid: 20 bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct QuickPosition<const BITS: u32> {
+    /// Projected: subpixels, y down. Otherwise clip space, below 2^14 in magnitude.
+    pub(crate) x: i32,
+    pub(crate) y: i32,
+    /// Projected: `2^BITS`. Otherwise clip space, below 2^14 in magnitude.
+    pub(crate) w: i32,
+    /// The position is `mantissa * 2^exponent` times the true vertex (in clip space or, projected, in
+    /// pixel space divided by 2).
+    pub(crate) mantissa: u32,
+    pub(crate) exponent: i8,
+    pub(crate) projected: bool,
+}
+
+impl<const BITS: u32> Quick<BITS> {
+    /// One pixel in subpixels.
+    pub(crate) const PIXEL: i32 = 1 << BITS;
+
+    const CHECK: () = assert!(
+        BITS == 4 || BITS == 8,
+        "quick tiers have 4 or 8 subpixel bits"
+    );
+}
+
+impl<const BITS: u32> Snap for Quick<BITS> {
+    type Position = QuickPosition<BITS>;
+
+    #[inline]
+    fn snap(vertex: &ClipVertex, hither: i64, viewport: &Viewport) -> QuickPosition<BITS> {
+        const { Self::CHECK }
+        let [x, y, _, w] = vertex.raw.map(i64::from);
+        // Pixel space, times 2 w: 42 bits.
+        let across = i64::from(viewport.width) * (x + w);
+        let down = i64::from(viewport.height) * (w - y);
+        let limit = 2 * GUARD_BAND * w;
+        let inside = across.abs() <= limit && down.abs() <= limit;
+        if inside && w > 0 && vertex.wide_w() >= hither {
+            project(vertex, across, down)
+        } else {
+            homogeneous(vertex)
+        }
+    }
+}
+
+/// Projects a vertex: `w > 0`, `|across|` and `|down|` at most `2048 w`.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "the exponent is -61 to 8")]
+fn project<const BITS: u32>(v: &ClipVertex, across: i64, down: i64) -> QuickPosition<BITS> {
+    let w = v.raw[3].unsigned_abs();
+    let zeros = w.leading_zeros();
+    let divisor = w << zeros;
+    let inverse = reciprocal(divisor);
+    // k = 2^(BITS - 1) / w, and 1 / (w 2^zeros) = inverse / 2^63.
+    let exponent = bits(BITS) - 1 + bits(zeros) - 63 - i32::from(v.shift);
+    QuickPosition {
+        x: quotient::<BITS>(across << zeros, divisor, inverse),
+        y: quotient::<BITS>(down << zeros, divisor, inverse),
+        w: 1 << BITS,
+        mantissa: inverse,
+        exponent: exponent as i8,
+        projected: true,
+    }
+}
+
+/// `n 2^BITS / (2 d)`, rounded to nearest (halves up), for `d` in `[2^31, 2^32)` and `|n| <= 2048 d`, given
+/// `2^63 / d` to one part in 2^29.
+///
+/// `n` fits 44 bits; cut to 31 bits it is `2^-19` of a pixel off, the reciprocal at most 2^-11 of a subpixel:
+/// the estimate is off by one at most, and the exact remainder (52 bits) says so.
+#[inline]
+fn quotient<const BITS: u32>(n: i64, d: u32, inverse: u32) -> i32 {
+    let estimate = ((n >> 12) * i64::from(inverse >> 1)) >> (63 - 12 - BITS);
+    let two_d = 2 * i64::from(d);
+    // n 2^BITS / two_d + 1/2 = (n 2^BITS + d) / two_d, floored.
+    let remainder = (n << BITS) + i64::from(d) - estimate * two_d;
+    let correction = if remainder < 0 {
+        -1
+    } else {
+        i64::from(remainder >= two_d)
+    };
+    low(estimate + correction)
+}
+
+/// Keeps a vertex homogeneous, in clip space: each coordinate within half a grid step of the scaled
+/// vertex, below `2^14` in magnitude.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the exponent is -31 - 18 - 34 to -17"
+)]
+fn homogeneous<const BITS: u32>(v: &ClipVertex) -> QuickPosition<BITS> {
+    let [x, y, _, w] = v.raw;
+    let largest = [x, y, w].map(i32::unsigned_abs);
+    let mut shift = shift_to_fit(largest, HOMOGENEOUS_BITS);
+    let limit = (1 << HOMOGENEOUS_BITS) - 1;
+    let reaches = |shift: i32| largest.iter().any(|&v| rounded(v, shift) > limit);
+    if reaches(shift) {
+        shift -= 1;
+    }
+    let scale = Scale::power_of_two(shift - i32::from(v.shift));
+    QuickPosition {
+        x: shift_round(x, shift),
+        y: shift_round(y, shift),
+        w: shift_round(w, shift),
+        mantissa: scale.mantissa,
+        exponent: scale.exponent as i8,
+        projected: false,
+    }
+}
+
+/// A magnitude after [`shift_round`], rounded up on a half.
+#[inline]
+#[expect(
+    clippy::cast_sign_loss,
+    reason = "a shift that was tested for its sign"
+)]
+fn rounded(v: u32, shift: i32) -> u32 {
+    if shift >= 0 {
+        v << shift
+    } else {
+        high((u64::from(v) << 32 >> -shift as u32) + (1 << 31))
+    }
+}
+
+impl<const BITS: u32> QuickPosition<BITS> {
+    /// `(x, y, w)` in pixel space, any scale: 25 bits and a sign for homogeneous ones, `BITS + 10` for
+    /// projected ones.
+    #[inline]
+    pub(crate) fn in_pixels(&self, viewport: &Viewport) -> [i64; 3] {
+        let [x, y, w] = [self.x, self.y, self.w].map(i64::from);
+        if self.projected {
+            [x, y, w]
+        } else {
+            [
+                i64::from(viewport.width) * (x + w),
+                i64::from(viewport.height) * (w - y),
+                2 * w,
+            ]
+        }
+    }
+
+    /// First column and row whose centre is not left of or above the vertex (of its mirror image where
+    /// `w < 0`), clamped to the viewport's size; meaningless where `w = 0`.
+    #[inline]
+    pub(crate) fn first_pixel(&self, viewport: &Viewport) -> [i32; 2] {
+        let [width, height] = [viewport.width, viewport.height];
+        if self.projected {
+            let first = |v: i32| (v + (Quick::<BITS>::PIXEL / 2 - 1)) >> BITS;
+            [
+                first(self.x).clamp(0, width),
+                first(self.y).clamp(0, height),
+            ]
+        } else {
+            let [x, y, w] = self.in_pixels(viewport).map(low);
+            let sign = w.signum();
+            [
+                i32::from(first_centre(sign * x, sign * w, width)),
+                i32::from(first_centre(sign * y, sign * w, height)),
+            ]
+        }
+    }
+}
+
+impl<const BITS: u32> Position for QuickPosition<BITS> {
+    const EMPTY: Self = Self {
+        x: 0,
+        y: 0,
+        w: 0,
+        mantissa: 1 << 31,
+        exponent: 0,
+        projected: false,
+    };
+
+    #[inline]
+    fn homogeneous(&self) -> Snapped {
+        if self.projected {
+            Snapped::Projected {
+                point: [self.x, self.y],
+                subpixel_bits: BITS,
+            }
+        } else {
+            let shift = i32::from(self.exponent) + 31;
+            Snapped::Homogeneous {
+                point: [self.x, self.y, self.w],
+                shift,
+            }
+        }
+    }
+
+    #[inline]
+    fn scale(&self) -> ScaleOf {
+        ScaleOf(Scale {
+            mantissa: self.mantissa,
+            exponent: i32::from(self.exponent),
+        })
+    }
+
+    #[inline]
+    fn scaled_w(&self) -> i32 {
+        if self.projected { self.w / 2 } else { self.w }
+    }
+}
+
+const _: () = assert!(
+    size_of::<QuickPosition<4>>() == 20,
+    "the size its documentation states"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn snap<const BITS: u32>(raw: [i32; 4], hither: i64) -> QuickPosition<BITS> {
+        let vertex = ClipVertex { raw, shift: 0 };
+        Quick::<BITS>::snap(&vertex, hither, &Viewport::new(240, 320).unwrap())
+    }
+
+    /// Projected coordinates are the nearest subpixel of the exact rational, over all sizes of w.
+    fn projects_to_nearest<const BITS: u32>() {
+        let mut seed = 1u64;
+        let mut projected = 0;
+        for i in 0..200_000u32 {
+            let mut draw = || {
+                seed = seed
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695);
+                (seed >> 33) as i64
+            };
+            let w = (draw() >> (i % 31)).max(1);
+            let raw = [draw() % (8 * w), draw() % (8 * w), 0].map(|v| v - 4 * w);
+            if raw.iter().any(|v| i32::try_from(*v).is_err()) {
+                continue;
+            }
+            let p = snap::<BITS>([raw[0] as i32, raw[1] as i32, 0, w as i32], 1);
+            let exact = [240 * (raw[0] + w), 320 * (w - raw[1])];
+            let in_band = exact.iter().all(|n| n.abs() <= 2048 * w);
+            assert_eq!(p.projected, in_band, "{raw:?} {w}");
+            if p.projected {
+                projected += 1;
+                for (n, s) in exact.into_iter().zip([p.x, p.y]) {
+                    let twice = (i128::from(n) << BITS) - i128::from(s) * 2 * i128::from(w);
+                    assert!(
+                        -i128::from(w) <= twice && twice <= i128::from(w),
+                        "{n} / {w}: {s}"
+                    );
+                }
+            }
+        }
+        assert!(projected > 10_000);
+    }
+
+    #[test]
+    fn quick4_projects_to_nearest() {
+        projects_to_nearest::<4>();
+    }
+
+    #[test]
+    fn quick8_projects_to_nearest() {
+        projects_to_nearest::<8>();
+    }
+
+    #[test]
+    fn the_hither_plane_and_the_guard_band_decide() {
+        assert!(snap::<8>([0, 0, 0, 100], 100).projected);
+        assert!(!snap::<8>([0, 0, 0, 99], 100).projected);
+        assert!(!snap::<8>([0, 0, 0, 0], 1).projected);
+        assert!(!snap::<8>([0, 0, 0, i32::MIN], 1).projected);
+        // 1024 px from the corner is inside, a step further is not: 240 (x + w) = 2048 w.
+        assert!(snap::<4>([(2048 - 240) * 10, 0, 0, 2400], 1).projected);
+        assert!(!snap::<4>([(2048 - 240) * 10 + 1, 0, 0, 2400], 1).projected);
+    }
+
+    #[test]
+    fn homogeneous_vertices_stay_below_the_limit() {
+        for v in [
+            1,
+            2,
+            16_383,
+            16_384,
+            16_385,
+            32_767,
+            32_768,
+            i32::MAX,
+            i32::MIN,
+            -16_384,
+        ] {
+            let p = snap::<4>([v, v / 2, 0, -1], 1);
+            assert!(p.x.abs() < 1 << 14 && p.x.abs() >= 1 << 12, "{v}: {p:?}");
+            let shift = i32::from(p.exponent) + 31;
+            let unit = f64::from(shift).exp2();
+            assert!((f64::from(p.x) - f64::from(v) * unit).abs() <= 0.5);
+            assert!((f64::from(p.y) - f64::from(v / 2) * unit).abs() <= 0.5);
+        }
+    }
+
+    #[test]
+    fn first_pixels_follow_the_centres() {
+        let vp = Viewport::new(240, 320).unwrap();
+        let at = |x: i32| {
+            let p = QuickPosition::<4> {
+                x,
+                y: x,
+                w: 16,
+                projected: true,
+                ..Default::default()
+            };
+            p.first_pixel(&vp)[0]
+        };
+        assert_eq!(
+            [at(-99), at(8), at(9), at(24), at(25), at(99_999)],
+            [0, 0, 1, 1, 2, 240]
+        );
+    }
+}

@@ -1,0 +1,205 @@
+//! The viewport: how large the picture is, where in the buffer it lies, and what part may be drawn.
+
+use crate::math::Scale;
+
+/// A rectangle of pixels: `x0 <= x < x1`, `y0 <= y < y1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Rect {
+    /// First column.
+    pub x0: i32,
+    /// First row.
+    pub y0: i32,
+    /// One past the last column.
+    pub x1: i32,
+    /// One past the last row.
+    pub y1: i32,
+}
+
+impl Rect {
+    /// What two rectangles share; possibly empty.
+    #[inline]
+    #[must_use]
+    pub fn intersect(self, other: Self) -> Self {
+        Self {
+            x0: self.x0.max(other.x0),
+            y0: self.y0.max(other.y0),
+            x1: self.x1.min(other.x1),
+            y1: self.y1.min(other.y1),
+        }
+    }
+
+    /// Whether it holds no pixel.
+    #[inline]
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.x0 >= self.x1 || self.y0 >= self.y1
+    }
+}
+
+/// The picture's size in pixels, its place in the buffer, and its scissor.
+///
+/// The size is what `[-1, 1]` is stretched over: pixel `(X, Y)` is sampled at its centre, `x_ndc = (2 X +
+/// 1) / width - 1` and `y_ndc = 1 - (2 Y + 1) / height`. The origin is where pixel (0, 0) lies in the buffer,
+/// possibly outside of it: a band that starts at row 60 of a frame is the frame's viewport with origin
+/// (0, -60), and is the same picture to the bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Viewport {
+    pub(crate) width: i32,
+    pub(crate) height: i32,
+    pub(crate) origin: (i32, i32),
+    pub(crate) scissor: Rect,
+    /// 1 / (width height).
+    pub(crate) inverse_area: Scale,
+}
+
+impl Viewport {
+    /// The largest width and height, in pixels: what the bit budgets of the tiers are proved for.
+    pub const MAX_SIDE: u16 = 512;
+
+    /// A viewport over the whole of a `width x height` buffer.
+    ///
+    /// # Errors
+    ///
+    /// [`ViewportSize`] where a side is 0 or over [`Viewport::MAX_SIDE`].
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "sides that pass are at most MAX_SIDE"
+    )]
+    pub fn new(width: u32, height: u32) -> Result<Self, ViewportSize> {
+        let fits = |side: u32| side >= 1 && side <= u32::from(Self::MAX_SIDE);
+        if !fits(width) || !fits(height) {
+            return Err(ViewportSize { width, height });
+        }
+        let (w, h) = (i32::from(width as u16), i32::from(height as u16));
+        Ok(Self {
+            width: w,
+            height: h,
+            origin: (0, 0),
+            scissor: Rect {
+                x0: 0,
+                y0: 0,
+                x1: w,
+                y1: h,
+            },
+            inverse_area: Scale::of(u64::from(width) * u64::from(height)).reciprocal(),
+        })
+    }
+
+    /// The same, with pixel (0, 0) at `(x, y)` of the buffer.
+    #[inline]
+    #[must_use]
+    pub fn with_origin(self, x: i16, y: i16) -> Self {
+        Self {
+            origin: (i32::from(x), i32::from(y)),
+            ..self
+        }
+    }
+
+    /// The same, drawing only inside `scissor`, which is in the viewport's own pixels.
+    #[inline]
+    #[must_use]
+    pub fn with_scissor(self, scissor: Rect) -> Self {
+        let whole = Rect {
+            x0: 0,
+            y0: 0,
+            x1: self.width,
+            y1: self.height,
+        };
+        Self {
+            scissor: whole.intersect(scissor),
+            ..self
+        }
+    }
+
+    /// Width in pixels.
+    #[inline]
+    #[must_use]
+    #[expect(clippy::cast_sign_loss, reason = "1 to MAX_SIDE")]
+    pub const fn width(&self) -> u32 {
+        self.width as u32
+    }
+
+    /// Height in pixels.
+    #[inline]
+    #[must_use]
+    #[expect(clippy::cast_sign_loss, reason = "1 to MAX_SIDE")]
+    pub const fn height(&self) -> u32 {
+        self.height as u32
+    }
+
+    /// The part of the scissor that a `width x height` buffer holds, in the viewport's pixels.
+    #[inline]
+    pub(crate) fn visible(&self, width: u32, height: u32) -> Rect {
+        let side = |v: u32| i32::try_from(v).unwrap_or(i32::MAX >> 1);
+        let (x, y) = self.origin;
+        self.scissor.intersect(Rect {
+            x0: -x,
+            y0: -y,
+            x1: side(width) - x,
+            y1: side(height) - y,
+        })
+    }
+}
+
+/// A viewport's side is 0 or too long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ViewportSize {
+    /// The width asked for, in pixels.
+    pub width: u32,
+    /// The height asked for, in pixels.
+    pub height: u32,
+}
+
+impl core::fmt::Display for ViewportSize {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { width, height } = self;
+        write!(
+            f,
+            "a viewport of {width} x {height} pixels: sides are 1 to {}",
+            Viewport::MAX_SIDE
+        )
+    }
+}
+
+impl core::error::Error for ViewportSize {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn sizes_are_checked() {
+        assert!(Viewport::new(1, 512).is_ok());
+        assert!(Viewport::new(0, 1).is_err());
+        let error = Viewport::new(240, 513).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "a viewport of 240 x 513 pixels: sides are 1 to 512"
+        );
+    }
+
+    #[test]
+    fn a_band_sees_its_rows_only() {
+        let band = Viewport::new(240, 240).unwrap().with_origin(0, -60);
+        assert_eq!(
+            band.visible(240, 20),
+            Rect {
+                x0: 0,
+                y0: 60,
+                x1: 240,
+                y1: 80
+            }
+        );
+        let off = band.with_scissor(Rect {
+            x0: -9,
+            y0: 0,
+            x1: 999,
+            y1: 60,
+        });
+        assert!(off.visible(240, 20).is_empty());
+    }
+}
