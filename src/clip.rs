@@ -1,15 +1,17 @@
-//! Clip planes as edge functions: a plane is one more linear function over the triangle, never a new
-//! vertex (Olano & Greer 1997, section 5.3).
+//! Clip planes as edge functions: a plane is one more linear function over the triangle, never a
+//! new vertex (Olano & Greer 1997, section 5.3).
 //!
-//! At a covered pixel the surface point is `sum(k_i p_i E_i) / sum(k_i E_i)`, with `E_i >= 0` the edge
-//! functions and `k_i > 0` the vertices' scales. So `sum(k_i n(p_i) E_i)` has the sign of the plane
-//! function `n` there, and it is linear on the screen: the pseudo-parameter vector of the paper.
+//! At a covered pixel the surface point is `sum(k_i p_i E_i) / sum(k_i E_i)`, with `E_i >= 0` the
+//! edge functions and `k_i > 0` the vertices' scales. So `sum(k_i n(p_i) E_i)` has the sign of the
+//! plane function `n` there, and it is linear on the screen: the pseudo-parameter vector of the
+//! paper.
 //!
-//! Bit budget: each `k_i n(p_i)` is cut to 32 significant bits, one part in 2^29 off at most, and all three are
-//! integers of at most 62 bits on one scale; times an edge function of 61 bits (one pixel outside of the
-//! viewport: 62), summed, that is below 2^126: `i128`. Bits that the common scale drops are 2^-61 of the
-//! largest. So a pixel may be decided wrongly only where the exact `n . p` is within 2^-28 of the largest `|n .
-//! p_i|` of the triangle's vertices; the contract asks for 2^-12. Only triangles that cross a plane pay.
+//! Bit budget: each `k_i n(p_i)` is cut to 32 significant bits, one part in 2^29 off at most, and
+//! all three are integers of at most 62 bits on one scale; times an edge function of 61 bits (one
+//! pixel outside of the viewport: 62), summed, that is below 2^126: `i128`. Bits that the common
+//! scale drops are 2^-61 of the largest. So a pixel may be decided wrongly only where the exact
+//! `n . p` is within 2^-28 of the largest `|n . p_i|` of the triangle's vertices; the contract asks
+//! for 2^-12. Only triangles that cross a plane pay.
 
 use crate::math::Scale;
 use crate::setup::Setup;
@@ -28,12 +30,13 @@ pub trait WRange: Copy + core::fmt::Debug {
     fn least_w(&self) -> i64;
 }
 
-/// No hither plane: the part in front of the eye, down to the eye itself. For flat colour without depth.
+/// No hither plane: the part in front of the eye, down to the eye itself. For flat colour without
+/// depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NoHither;
 
-/// No hither plane, and both parts of an external triangle: the one in front of the eye and its mirror
-/// image behind (the footnote in section 5.1 of the paper).
+/// No hither plane, and both parts of an external triangle: the one in front of the eye and its
+/// mirror image behind (the footnote in section 5.1 of the paper).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BothSides;
 
@@ -53,11 +56,7 @@ impl Hither {
     #[inline]
     pub const fn new(distance: I16F16) -> Result<Self, HitherDistance> {
         let raw = distance.to_bits();
-        if raw > 0 {
-            Ok(Self { raw })
-        } else {
-            Err(HitherDistance { distance })
-        }
+        if raw > 0 { Ok(Self { raw }) } else { Err(HitherDistance { distance }) }
     }
 
     /// The distance, raw Q16.16; positive.
@@ -106,11 +105,7 @@ pub struct HitherDistance {
 
 impl core::fmt::Display for HitherDistance {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(
-            f,
-            "a hither plane at w = {}: it must be above 0",
-            self.distance
-        )
+        write!(f, "a hither plane at w = {}: it must be above 0", self.distance)
     }
 }
 
@@ -124,16 +119,14 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// A plane from its four coefficients. Only their ratios matter; those beyond ±4096 are scaled down
-    /// together, to one part in 2^28.
+    /// A plane from its four coefficients. Only their ratios matter; those beyond ±4096 are scaled
+    /// down together, to one part in 2^28.
     #[must_use]
     pub fn new(coefficients: [I16F16; 4]) -> Self {
         let raw = coefficients.map(I16F16::to_bits);
         let all = raw.iter().fold(0, |all, v| all | v.unsigned_abs());
         let shift = 4u32.saturating_sub(all.leading_zeros());
-        Self {
-            normal: raw.map(|v| v >> shift),
-        }
+        Self { normal: raw.map(|v| v >> shift) }
     }
 
     /// `n . p` of the raw coordinates: at most 2^61.
@@ -163,18 +156,12 @@ struct Signed {
 impl Signed {
     #[inline]
     fn of(v: i64) -> Self {
-        Self {
-            negative: v < 0,
-            scale: Scale::of(v.unsigned_abs()),
-        }
+        Self { negative: v < 0, scale: Scale::of(v.unsigned_abs()) }
     }
 
     #[inline]
     fn times(self, scale: Scale) -> Self {
-        Self {
-            scale: self.scale.times(scale),
-            ..self
-        }
+        Self { scale: self.scale.times(scale), ..self }
     }
 }
 
@@ -197,11 +184,7 @@ fn align(values: [Signed; 3]) -> [i128; 3] {
 fn half_plane(setup: &Setup, values: [Signed; 3]) -> HalfPlane<i128> {
     let [u, v, w] = align(values);
     let sum = |[x, y, z]: [i64; 3]| u * i128::from(x) + v * i128::from(y) + w * i128::from(z);
-    HalfPlane {
-        a: sum(setup.a) << setup.step,
-        b: sum(setup.b) << setup.step,
-        c: sum(setup.c),
-    }
+    HalfPlane { a: sum(setup.a) << setup.step, b: sum(setup.b) << setup.step, c: sum(setup.c) }
 }
 
 /// `k (w - h)` of a snapped vertex.
@@ -215,10 +198,7 @@ fn above_hither<P: Position>(position: &P, hither: Hither) -> Signed {
             Signed::of(value).times(Scale::power_of_two(-40))
         }
         // w 2^-shift - h, without rounding: 52 bits, or 61.
-        Snapped::Homogeneous {
-            point: [_, _, w],
-            shift,
-        } => {
+        Snapped::Homogeneous { point: [_, _, w], shift } => {
             let (value, exponent) = if shift >= 0 {
                 (i64::from(w) - (h << shift), 0)
             } else if shift >= -40 {
@@ -248,10 +228,7 @@ impl<const P: usize> ClipEdges<P> {
         hither: Option<Hither>,
         outside: Outside,
     ) -> Self {
-        let mut edges = Self {
-            hither: None,
-            planes: [None; P],
-        };
+        let mut edges = Self { hither: None, planes: [None; P] };
         if let Some(hither) = hither.filter(|_| outside.0 & Outside::HITHER != 0) {
             let values = vertices.map(|v| above_hither(&v.position, hither));
             edges.hither = Some(half_plane(setup, values));
@@ -280,24 +257,14 @@ mod tests {
         let all = |v: [i32; 4]| Plane::new(v.map(I16F16::from_bits)).normal;
         assert_eq!(all([1024, -1024, 3, 0]), [1024, -1024, 3, 0]);
         assert_eq!(all([1 << 28, 0, 0, 0])[0], 1 << 27);
-        assert_eq!(
-            all([i32::MIN, i32::MAX, 16, 0]),
-            [-(1 << 27), (1 << 27) - 1, 1, 0]
-        );
-        let far = ClipVertex {
-            raw: [i32::MIN; 4],
-            shift: 0,
-        };
+        assert_eq!(all([i32::MIN, i32::MAX, 16, 0]), [-(1 << 27), (1 << 27) - 1, 1, 0]);
+        let far = ClipVertex { raw: [i32::MIN; 4], shift: 0 };
         assert_eq!(Plane::new([I16F16::MIN; 4]).distance(&far), 1 << 60);
     }
 
     #[test]
     fn aligned_values_keep_sign_and_ratio() {
-        let values = [
-            Signed::of(3),
-            Signed::of(-5),
-            Signed::of(7).times(Scale::power_of_two(40)),
-        ];
+        let values = [Signed::of(3), Signed::of(-5), Signed::of(7).times(Scale::power_of_two(40))];
         let [a, b, c] = align(values);
         assert_eq!((a * 5, c), (-b * 3, (a << 40) / 3 * 7));
         let [zero, _, top] = align([Signed::of(0), Signed::of(1), Signed::of(i64::MIN)]);

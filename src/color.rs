@@ -7,8 +7,8 @@
 use bytemuck::Pod;
 use fixed::types::I16F16;
 
-/// 16-bit colour: 5 bits red, 6 green, 5 blue, red in the high bits. As a [`PixelFormat`], the same in
-/// the processor's own byte order.
+/// 16-bit colour: 5 bits red, 6 green, 5 blue, red in the high bits. As a [`PixelFormat`], the same
+/// in the processor's own byte order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rgb565(pub u16);
@@ -93,8 +93,8 @@ fn channel(unit: I16F16, max: u32) -> u32 {
     (unit * max + (1 << 15)) >> 16
 }
 
-/// A colour that can be made from red, green and blue in `[0, 1]`, each channel rounded to nearest and
-/// clamped: what [`Gouraud`](crate::Gouraud) needs.
+/// A colour that can be made from red, green and blue in `[0, 1]`, each channel rounded to nearest
+/// and clamped: what [`Gouraud`](crate::Gouraud) needs.
 pub trait FromUnit: Copy {
     /// The nearest colour to `[r, g, b]`, each in `[0, 1]`.
     fn from_unit(rgb: [I16F16; 3]) -> Self;
@@ -118,13 +118,10 @@ impl FromUnit for Rgb888 {
 impl FromUnit for Gray8 {
     /// Luma by Rec. 601: 0.299 r + 0.587 g + 0.114 b, weights as 77, 150 and 29 of 256.
     #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a weighted mean of 8-bit values"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "a weighted mean of 8-bit values")]
     fn from_unit([r, g, b]: [I16F16; 3]) -> Self {
         let luma = 77 * channel(r, 65_280) + 150 * channel(g, 65_280) + 29 * channel(b, 65_280);
-        Self((luma + (1 << 15) >> 16) as u8)
+        Self(((luma + (1 << 15)) >> 16) as u8)
     }
 }
 
@@ -204,10 +201,7 @@ mod tests {
         let low = I16F16::from_num(-0.5);
         let high = I16F16::from_num(1.5);
         assert_eq!(Rgb565::from_unit([high, low, high]), Rgb565::new(31, 0, 31));
-        assert_eq!(
-            Rgb888::from_unit([I16F16::MIN, I16F16::MAX, low]),
-            Rgb888::new(0, 255, 0)
-        );
+        assert_eq!(Rgb888::from_unit([I16F16::MIN, I16F16::MAX, low]), Rgb888::new(0, 255, 0));
         assert_eq!(Gray8::from_unit([high; 3]), Gray8::WHITE);
         assert_eq!(Gray8::from_unit([low; 3]), Gray8::BLACK);
     }

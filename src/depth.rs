@@ -1,21 +1,24 @@
 //! Depth: `z / w`, 0 on the hither plane and 1 at far, stored in 16 or 32 bits.
 //!
-//! `z / w` is linear on the screen: `sum(k_i z_i E_i) / D`, set up from `[k_i z_i]` (Olano & Greer 1997,
-//! section 4). The running value is 32 bits, `(z / w)(2^N - 1) 2^(32 - N)`; its top `N` bits are stored, rounded.
+//! `z / w` is linear on the screen: `sum(k_i z_i E_i) / D`, set up from `[k_i z_i]` (Olano & Greer
+//! 1997, section 4). The running value is 32 bits, `(z / w)(2^N - 1) 2^(32 - N)`; its top `N` bits
+//! are stored, rounded.
 //!
-//! Error budget for `N = 16`, in stored units of 2^16 running ones (after Rossignac, section 9.3.1: the running value
-//! carries the bits that its additions lose):
-//! - each row starts from the exact edge functions: each of three weights is within 2^-29 of itself, the part they
-//!   share (`1 / D`) changes nothing but the scale of the whole, so the start is within 2^-13 of a unit for vertices in
-//!   front of the eye, and 2^-2 where one is 4096 hither distances behind it;
+//! Error budget for `N = 16`, in stored units of 2^16 running ones (after Rossignac, section 9.3.1:
+//! the running value carries the bits that its additions lose):
+//! - each row starts from the exact edge functions: each of three weights is within 2^-29 of
+//!   itself, the part they share (`1 / D`) changes nothing but the scale of the whole, so the start
+//!   is within 2^-13 of a unit for vertices in front of the eye, and 2^-2 where one is 4096 hither
+//!   distances behind it;
 //! - the step is rounded to half a running unit: 511 steps add 2^-8;
 //! - rounding to 16 bits adds 1/2.
 //!
-//! So a stored depth is within 1 unit of the exact plane at every covered pixel. With `N = 32` the running value
-//! itself is stored: within 2^-15 of the range for `w` in front of the eye.
+//! So a stored depth is within 1 unit of the exact plane at every covered pixel. With `N = 32` the
+//! running value itself is stored: within 2^-15 of the range for `w` in front of the eye.
 //!
-//! A row whose ends are both inside of the range is inside all along, since a row is linear and its steps are exact
-//! integers. Any other row is stored pixel by pixel, each saturated; no value wraps.
+//! A row whose ends are both inside of the range is inside all along, since a row is linear and its
+//! steps are exact integers. Any other row is stored pixel by pixel, each saturated; no value
+//! wraps.
 
 use crate::framebuffer::BufferSize;
 use crate::math::{Scale, index, low};
@@ -25,7 +28,8 @@ use crate::vertex::{Position, ScaleOf, Snap, Vertex};
 use bytemuck::Pod;
 use core::marker::PhantomData;
 
-/// A stored depth: `u16` or `u32`, the whole range of the word from 0 (hither) to its maximum (far).
+/// A stored depth: `u16` or `u32`, the whole range of the word from 0 (hither) to its maximum
+/// (far).
 pub trait DepthWord: Pod + Ord + Send + core::fmt::Debug {
     /// Bits of the word.
     #[doc(hidden)]
@@ -42,7 +46,6 @@ impl DepthWord for u16 {
     const FAR: Self = Self::MAX;
 
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "the top 16 bits")]
     fn from_running(running: u32) -> Self {
         (running >> 16) as Self
     }
@@ -92,8 +95,8 @@ pub trait DepthTest: core::fmt::Debug {
     #[doc(hidden)]
     const BITS: u32;
 
-    /// Tests `length` pixels from `(x, y)` of the buffer, nearest of two and stored where it passes: a running
-    /// value and its step a pixel. Yields whether each passes.
+    /// Tests `length` pixels from `(x, y)` of the buffer, nearest of two and stored where it
+    /// passes: a running value and its step a pixel. Yields whether each passes.
     #[doc(hidden)]
     fn test(
         &mut self,
@@ -134,20 +137,15 @@ pub struct DepthBuffer<'a, W: DepthWord = u16, C: Compare = Less> {
 }
 
 impl<'a, W: DepthWord> DepthBuffer<'a, W> {
-    /// A `width x height` buffer, nearer passing, over the first `width * height` words. They keep what they hold; see
-    /// [`Frame::clear`](crate::Frame::clear).
+    /// A `width x height` buffer, nearer passing, over the first `width * height` words. They keep
+    /// what they hold; see [`Frame::clear`](crate::Frame::clear).
     ///
     /// # Errors
     ///
     /// [`BufferSize`] where a side is 0 or there are fewer words.
     pub fn try_new(words: &'a mut [W], width: u32, height: u32) -> Result<Self, BufferSize> {
         let (width, height) = BufferSize::check(width, height, words.len())?;
-        Ok(Self {
-            words,
-            width,
-            height,
-            compare: PhantomData,
-        })
+        Ok(Self { words, width, height, compare: PhantomData })
     }
 }
 
@@ -155,18 +153,8 @@ impl<'a, W: DepthWord, C: Compare> DepthBuffer<'a, W, C> {
     /// The same with another comparison.
     #[must_use]
     pub fn with_compare<D: Compare>(self, _compare: D) -> DepthBuffer<'a, W, D> {
-        let Self {
-            words,
-            width,
-            height,
-            ..
-        } = self;
-        DepthBuffer {
-            words,
-            width,
-            height,
-            compare: PhantomData,
-        }
+        let Self { words, width, height, .. } = self;
+        DepthBuffer { words, width, height, compare: PhantomData }
     }
 
     /// Width and height in pixels.
@@ -201,9 +189,7 @@ impl<W: DepthWord, C: Compare> DepthTest for DepthBuffer<'_, W, C> {
         step: u32,
     ) -> impl Iterator<Item = bool> {
         let start = index(y * self.width + x);
-        let words = self
-            .words
-            .get_mut(start..start.saturating_add(index(length)));
+        let words = self.words.get_mut(start..start.saturating_add(index(length)));
         words.unwrap_or_default().iter_mut().map(move |stored| {
             let depth = W::from_running(running);
             running = running.wrapping_add(step);
@@ -257,11 +243,7 @@ impl DepthPlane {
             (z.times(k).times(raw).times(full), v.z < 0)
         });
         let step = combine(&weights, setup.a.map(|a| a << setup.step));
-        Self {
-            weights,
-            step,
-            half: (1i64 << (32 - bits)) >> 1,
-        }
+        Self { weights, step, half: (1i64 << (32 - bits)) >> 1 }
     }
 
     /// The run of a span whose edge functions at its first pixel are `edges`.
@@ -271,35 +253,21 @@ impl DepthPlane {
         let pixels = i64::from(span.x1 - 1 - span.x0);
         let last = first.saturating_add(self.step.saturating_mul(pixels));
         let fits = |v: i64| v >= 0 && v <= i64::from(u32::MAX);
-        DepthRun {
-            first,
-            step: self.step,
-            inside: fits(first) && fits(last),
-        }
+        DepthRun { first, step: self.step, inside: fits(first) && fits(last) }
     }
 }
 
 impl DepthRun {
     /// The run where there is no depth.
-    pub(crate) const NONE: Self = Self {
-        first: 0,
-        step: 0,
-        inside: true,
-    };
+    pub(crate) const NONE: Self = Self { first: 0, step: 0, inside: true };
 
-    /// The running value at the first pixel, saturated, and the step. Where a run is inside the range, a step that does
-    /// not fit 32 bits belongs to a single pixel, and is not taken.
+    /// The running value at the first pixel, saturated, and the step. Where a run is inside the
+    /// range, a step that does not fit 32 bits belongs to a single pixel, and is not taken.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "clamped to 32 bits")]
-    #[expect(
-        clippy::cast_sign_loss,
-        reason = "clamped to positive; the step wraps by intent"
-    )]
+    #[expect(clippy::cast_sign_loss, reason = "clamped to positive; the step wraps by intent")]
     pub(crate) fn running(&self) -> (u32, u32) {
-        (
-            self.first.clamp(0, i64::from(u32::MAX)) as u32,
-            low(self.step) as u32,
-        )
+        (self.first.clamp(0, i64::from(u32::MAX)) as u32, low(self.step) as u32)
     }
 }
 
@@ -312,9 +280,7 @@ fn combine(weights: &[(Scale, bool); 3], edges: [i64; 3]) -> i64 {
         if negative { -value } else { value }
     };
     let [e0, e1, e2] = edges;
-    term(s0, n0, e0)
-        .saturating_add(term(s1, n1, e1))
-        .saturating_add(term(s2, n2, e2))
+    term(s0, n0, e0).saturating_add(term(s1, n1, e1)).saturating_add(term(s2, n2, e2))
 }
 
 #[cfg(test)]
@@ -334,9 +300,7 @@ mod tests {
     #[test]
     fn always_stores_the_farthest_too() {
         let mut words = [u32::FAR; 4];
-        let mut buffer = DepthBuffer::try_new(&mut words, 4, 1)
-            .unwrap()
-            .with_compare(Always);
+        let mut buffer = DepthBuffer::try_new(&mut words, 4, 1).unwrap().with_compare(Always);
         assert_eq!(buffer.test(1, 0, 2, u32::MAX, 0).filter(|p| *p).count(), 2);
     }
 
@@ -352,14 +316,7 @@ mod tests {
 
     #[test]
     fn running_values_saturate() {
-        let run = |first: i64| {
-            DepthRun {
-                first,
-                step: -3,
-                inside: false,
-            }
-            .running()
-        };
+        let run = |first: i64| DepthRun { first, step: -3, inside: false }.running();
         assert_eq!(run(-1), (0, 3u32.wrapping_neg()));
         assert_eq!(run(i64::MAX).0, u32::MAX);
     }

@@ -23,8 +23,8 @@ use fixed::types::I16F16;
 pub enum Outcome {
     /// It was rasterized.
     Drawn,
-    /// It was rasterized, divided at each pixel though affine was asked for, since it reaches behind the
-    /// hither plane.
+    /// It was rasterized, divided at each pixel though affine was asked for, since it reaches
+    /// behind the hither plane.
     DrawnByFallback,
     /// Its facing is culled.
     Culled,
@@ -95,7 +95,8 @@ where
 {
     /// Snaps a vertex to the tier's grid for this frame's viewport and planes.
     ///
-    /// Snapped vertices may be kept as long as the viewport's size, the hither plane and the planes stay the same.
+    /// Snapped vertices may be kept as long as the viewport's size, the hither plane and the planes
+    /// stay the same.
     #[inline]
     pub fn snap<const N: usize>(
         &self,
@@ -204,10 +205,11 @@ where
 
     /// Draws an indexed mesh: each vertex through `stage`, each pixel through `fragment`.
     ///
-    /// The first `cache.len()` vertices are transformed once each, into the cache the caller lends; with an entry for
-    /// each of [`Mesh::vertex_count`] vertices that is all of them. Vertices beyond are transformed again for
-    /// every triangle that uses them: an empty cache draws the same picture, slower. An entry is
-    /// `size_of::<Vertex<T, N, P>>()` bytes: 28 and 4 a varying in the exact tier, and 8 a clip plane.
+    /// The first `cache.len()` vertices are transformed once each, into the cache the caller lends;
+    /// with an entry for each of [`Mesh::vertex_count`] vertices that is all of them. Vertices
+    /// beyond are transformed again for every triangle that uses them: an empty cache draws the
+    /// same picture, slower. An entry is `size_of::<Vertex<T, N, P>>()` bytes: 28 and 4 a varying
+    /// in the exact tier, and 8 a clip plane.
     pub fn draw<Q, A, S, F, const N: usize>(
         &mut self,
         mesh: &Mesh<'_, Q, A>,
@@ -222,11 +224,10 @@ where
         W: Interpolates<N>,
     {
         let vertex = |frame: &Self, index: usize| {
-            mesh.vertex(index)
-                .map_or(Vertex::EMPTY, |(position, attribute)| {
-                    let (clip, varyings) = stage.vertex(position, attribute);
-                    frame.snap(&clip, varyings)
-                })
+            mesh.vertex(index).map_or(Vertex::EMPTY, |(position, attribute)| {
+                let (clip, varyings) = stage.vertex(position, attribute);
+                frame.snap(&clip, varyings)
+            })
         };
         for (index, entry) in cache.iter_mut().take(mesh.vertex_count()).enumerate() {
             *entry = vertex(self, index);
@@ -301,9 +302,7 @@ where
         F: Fragment<C::Color, N>,
     {
         let edges = setup.edges_at(block.x0, block.y);
-        let depth = shading
-            .depth
-            .map_or(DepthRun::NONE, |plane| plane.run(block, edges));
+        let depth = shading.depth.map_or(DepthRun::NONE, |plane| plane.run(block, edges));
         if !depth.inside && block.x1 - block.x0 > 1 {
             // Some depth of the row saturates: each pixel by itself.
             for pixel in block.blocks(1) {
@@ -324,9 +323,7 @@ where
         F: Fragment<C::Color, N>,
     {
         let edges = setup.edges_at(pixel.x0, pixel.y);
-        let depth = shading
-            .depth
-            .map_or(DepthRun::NONE, |plane| plane.run(pixel, edges));
+        let depth = shading.depth.map_or(DepthRun::NONE, |plane| plane.run(pixel, edges));
         self.draw_run_of(setup, pixel, edges, depth, shading);
     }
 
@@ -371,13 +368,8 @@ where
         let tests = self.depth.test(x0 + left, y + top, x1 - x0, running, step);
         let mut x = x0;
         let colors = tests.take(length).map(|passes| {
-            let color = passes.then(|| {
-                fragment.shade(Sample {
-                    x,
-                    y,
-                    varyings: varyings.varyings(),
-                })
-            });
+            let color =
+                passes.then(|| fragment.shade(Sample { x, y, varyings: varyings.varyings() }));
             varyings.step();
             x += 1;
             color
@@ -388,8 +380,8 @@ where
 
 /// Why a triangle whose vertices are all outside of the bounds in `all` shows nothing, if so.
 ///
-/// Each bound is linear over the triangle, so what holds at three vertices holds everywhere on the part in front; a clip
-/// plane also on the part behind.
+/// Each bound is linear over the triangle, so what holds at three vertices holds everywhere on the
+/// part in front; a clip plane also on the part behind.
 #[inline]
 fn rejected<W: Interpolates<N>, const N: usize>(all: u16) -> Option<Outcome> {
     if !W::BEHIND && all & Outside::HITHER != 0 {

@@ -18,8 +18,8 @@ pub struct Sample<const N: usize> {
 
 /// A shader: colours a pixel from `N` varyings.
 ///
-/// The number of varyings is part of the type, so what a shader does not read costs nothing. A shader with one or more
-/// needs a frame with a hither plane.
+/// The number of varyings is part of the type, so what a shader does not read costs nothing. A
+/// shader with one or more needs a frame with a hither plane.
 ///
 /// ```
 /// use hither::{Fragment, Gray8, Sample};
@@ -35,8 +35,8 @@ pub struct Sample<const N: usize> {
 /// }
 /// ```
 pub trait Fragment<C: Copy, const N: usize>: Copy {
-    /// Whether a whole triangle has one colour, so that spans are filled; so for all with no varyings, unless a shader
-    /// looks at the pixel's position.
+    /// Whether a whole triangle has one colour, so that spans are filled; so for all with no
+    /// varyings, unless a shader looks at the pixel's position.
     const UNIFORM: bool = N == 0;
 
     /// The colour at a pixel.
@@ -84,10 +84,7 @@ impl<C: Copy> Fragment<C, 0> for FaceColors<'_, C> {
 
     #[inline]
     fn for_face(self, index: usize) -> Self {
-        Self {
-            current: self.colors.get(index).copied().unwrap_or(self.current),
-            ..self
-        }
+        Self { current: self.colors.get(index).copied().unwrap_or(self.current), ..self }
     }
 }
 
@@ -133,13 +130,7 @@ mod tests {
     fn faces_have_their_colours() {
         assert!(FaceColors::<u8>::new(&[]).is_none());
         let colors = FaceColors::new(&[3u8, 5]).unwrap();
-        let at = |i: usize| {
-            colors.for_face(i).shade(Sample {
-                x: 0,
-                y: 0,
-                varyings: [],
-            })
-        };
+        let at = |i: usize| colors.for_face(i).shade(Sample { x: 0, y: 0, varyings: [] });
         assert_eq!([0, 1, 2].map(at), [3, 5, 5]);
     }
 }

@@ -5,9 +5,10 @@ use crate::math::index;
 
 /// What spans are drawn into.
 ///
-/// The least an implementation needs is [`write`](Target::write): a run of pixels, some of them skipped. Memory
-/// that holds rows does better by [`fill`](Target::fill), for runs of one colour. Coordinates are the target's own,
-/// row 0 on top; the rasterizer never passes any outside of [`size`](Target::size).
+/// The least an implementation needs is [`write`](Target::write): a run of pixels, some of them
+/// skipped. Memory that holds rows does better by [`fill`](Target::fill), for runs of one colour.
+/// Coordinates are the target's own, row 0 on top; the rasterizer never passes any outside of
+/// [`size`](Target::size).
 ///
 /// ```
 /// use hither::{Flat, Frame, Rgb565, Target, Viewport};
@@ -37,8 +38,8 @@ pub trait Target {
     /// Width and height in pixels.
     fn size(&self) -> (u32, u32);
 
-    /// Writes pixels of row `y` from column `x` on, as many as `colors` yields, all inside of the target; those that are
-    /// `None` keep what they were.
+    /// Writes pixels of row `y` from column `x` on, as many as `colors` yields, all inside of the
+    /// target; those that are `None` keep what they were.
     fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<Self::Color>>);
 
     /// Fills `length` pixels of row `y` from column `x` on with one colour.
@@ -72,11 +73,7 @@ impl<'a, F: PixelFormat> Framebuffer<'a, F> {
     /// [`BufferSize`] where a side is 0 or there are fewer words.
     pub fn try_new(words: &'a mut [F::Word], width: u32, height: u32) -> Result<Self, BufferSize> {
         BufferSize::check(width, height, words.len())?;
-        Ok(Self {
-            words,
-            width,
-            height,
-        })
+        Ok(Self { words, width, height })
     }
 
     /// The pixels as they are stored, row by row from the top.
@@ -97,10 +94,7 @@ impl<'a, F: PixelFormat> Framebuffer<'a, F> {
     pub fn pixel(&self, x: u32, y: u32) -> Option<F::Color> {
         let inside = x < self.width && y < self.height;
         let at = y as usize * self.width as usize + x as usize;
-        self.words
-            .get(at)
-            .filter(|_| inside)
-            .map(|word| F::decode(*word))
+        self.words.get(at).filter(|_| inside).map(|word| F::decode(*word))
     }
 
     /// The buffer back, for a flush or for text.
@@ -169,10 +163,7 @@ pub enum BufferSize {
 
 impl BufferSize {
     /// The sides as coordinates, if `words` words hold that many pixels.
-    #[expect(
-        clippy::cast_possible_wrap,
-        reason = "sides whose product is at most i32::MAX"
-    )]
+    #[expect(clippy::cast_possible_wrap, reason = "sides whose product is at most i32::MAX")]
     pub(crate) fn check(width: u32, height: u32, words: usize) -> Result<(i32, i32), Self> {
         let pixels = u64::from(width) * u64::from(height);
         let needed = usize::try_from(pixels).unwrap_or(usize::MAX);
@@ -190,16 +181,10 @@ impl core::fmt::Display for BufferSize {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Sides { width, height } => {
-                write!(
-                    f,
-                    "a buffer of {width} x {height} pixels: sides are 1 or more"
-                )
+                write!(f, "a buffer of {width} x {height} pixels: sides are 1 or more")
             }
             Self::Words { needed, got } => {
-                write!(
-                    f,
-                    "a buffer of {needed} pixels in {got} words: a word a pixel is needed"
-                )
+                write!(f, "a buffer of {needed} pixels in {got} words: a word a pixel is needed")
             }
         }
     }
@@ -225,10 +210,7 @@ mod tests {
         assert!(Framebuffer::<Rgb565>::try_new(&mut words, 3, 2).is_ok());
         let error = Framebuffer::<Rgb565>::try_new(&mut words, 3, 3).unwrap_err();
         assert_eq!(error, BufferSize::Words { needed: 9, got: 6 });
-        assert_eq!(
-            error.to_string(),
-            "a buffer of 9 pixels in 6 words: a word a pixel is needed"
-        );
+        assert_eq!(error.to_string(), "a buffer of 9 pixels in 6 words: a word a pixel is needed");
         assert!(Framebuffer::<Rgb565>::try_new(&mut words, 0, 3).is_err());
         let error = Framebuffer::<Rgb565>::try_new(&mut words, u32::MAX, u32::MAX).unwrap_err();
         assert!(matches!(error, BufferSize::Sides { .. }));
@@ -240,10 +222,7 @@ mod tests {
         let mut buffer = Framebuffer::<Rgb565Be>::try_new(&mut words, 3, 2).unwrap();
         buffer.fill(1, 0, 2, Rgb565(0x1234));
         buffer.write(0, 1, [Some(Rgb565(1)), None, Some(Rgb565(2))].into_iter());
-        assert_eq!(
-            buffer.bytes(),
-            [0, 0, 0x12, 0x34, 0x12, 0x34, 0, 1, 0, 0, 0, 2]
-        );
+        assert_eq!(buffer.bytes(), [0, 0, 0x12, 0x34, 0x12, 0x34, 0, 1, 0, 0, 0, 2]);
         assert_eq!(buffer.pixel(2, 1), Some(Rgb565(2)));
         assert_eq!(buffer.pixel(3, 0), None);
         buffer.fill(2, 1, 2, Rgb565(7));

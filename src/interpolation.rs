@@ -1,15 +1,17 @@
 //! Attributes across a triangle: perspective-correct per pixel, every N pixels, or not at all.
 //!
-//! At a pixel in front of a hither plane `h`, vertex `i` has the weight `beta_i = h k_i E_i / D`, where `E_i >= 0`
-//! are the edge functions, `k_i > 0` the vertices' scales, and `sum(beta_i) = h / w = q` (Olano & Greer 1997,
-//! section 4.1 and equation 4: `1/w` is set up from `[k_i]`, an attribute from `[k_i u_i]`). So every weight is in
-//! `[0, 1]`, for any signs of the vertices' `w`, and `u = u_0 + sum((u_i - u_0) beta_i) / q` stays between the
-//! vertices' values. Affine (section 6, equation 5) takes `[k_i w_i u_i]` instead: then `q` is 1.
+//! At a pixel in front of a hither plane `h`, vertex `i` has the weight `beta_i = h k_i E_i / D`,
+//! where `E_i >= 0` are the edge functions, `k_i > 0` the vertices' scales, and
+//! `sum(beta_i) = h / w = q` (Olano & Greer 1997, section 4.1 and equation 4: `1/w` is set up from
+//! `[k_i]`, an attribute from `[k_i u_i]`). So every weight is in `[0, 1]`, for any signs of the
+//! vertices' `w`, and `u = u_0 + sum((u_i - u_0) beta_i) / q` stays between the vertices' values.
+//! Affine (section 6, equation 5) takes `[k_i w_i u_i]` instead: then `q` is 1.
 //!
-//! Formats: weights Q32 in `i64`; `q` and the numerators `n` Q30 in `i32`, where `n` is in units of `2^e`, the
-//! power of two at or above the largest `|u_i - u_0|`; so `|n| <= q <= 1`.
+//! Formats: weights Q32 in `i64`; `q` and the numerators `n` Q30 in `i32`, where `n` is in units of
+//! `2^e`, the power of two at or above the largest `|u_i - u_0|`; so `|n| <= q <= 1`.
 //!
-//! Error budget in the exact tier, in units of the attribute's range, at `w = 4096 h` (`q = 2^-12`):
+//! Error budget in the exact tier, in units of the attribute's range, at `w = 4096 h`
+//! (`q = 2^-12`):
 //! - a block of [`BLOCK`] = 64 pixels starts from the exact edge functions: weights within 2^-29 of
 //!   themselves and 2^-33, `n` and `q` within 2^-30;
 //! - a pixel's step is rounded to 2^-31, so 63 steps add 2^-25 to `n` and to `q`;
@@ -54,7 +56,8 @@ impl<const N: usize> Interpolates<N> for Hither {
 pub trait Correction: Copy + Default + core::fmt::Debug {
     /// Pixels between two divisions: 1, or the length of a straight piece.
     const EVERY: i32;
-    /// Whether triangles wholly in front of the hither plane are interpolated linearly on the screen.
+    /// Whether triangles wholly in front of the hither plane are interpolated linearly on the
+    /// screen.
     const AFFINE: bool;
 }
 
@@ -66,8 +69,9 @@ pub struct Perspective;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PerspectiveEvery<const N: u8>;
 
-/// No correction: linear on the screen, for triangles with no vertex behind the hither plane. Another
-/// triangle is divided at each pixel, and counted in [`Counts`](crate::Counts)` ::fallbacks`.
+/// No correction: linear on the screen, for triangles with no vertex behind the hither plane.
+/// Another triangle is divided at each pixel, and counted in
+/// [`Counts`](crate::Counts)` ::fallbacks`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Affine;
 
@@ -135,12 +139,7 @@ impl Varying {
         let largest = both[0].unsigned_abs().max(both[1].unsigned_abs());
         let exponent = 64 - largest.saturating_sub(1).leading_zeros();
         let differences = both.map(|d| low(shr_round(d << 30, exponent)));
-        let mut varying = Self {
-            base: u0,
-            differences,
-            exponent,
-            step: 0,
-        };
+        let mut varying = Self { base: u0, differences, exponent, step: 0 };
         varying.step = varying.numerator(weight_steps);
         varying
     }
@@ -203,13 +202,7 @@ impl<const N: usize> Varyings<N> {
         for (((varying, u0), u1), u2) in each.iter_mut().zip(v0).zip(v1).zip(v2) {
             *varying = Varying::new([u0, u1, u2].map(I16F16::to_bits), steps);
         }
-        Self {
-            mode,
-            fallback: C::AFFINE && mode != Mode::Linear,
-            scale,
-            q_step,
-            each,
-        }
+        Self { mode, fallback: C::AFFINE && mode != Mode::Linear, scale, q_step, each }
     }
 
     /// Numerators and `q` where the edge functions have these values.
@@ -224,11 +217,7 @@ impl<const N: usize> Varyings<N> {
     #[inline]
     fn quotients(&self, edges: [i64; 3]) -> [i32; N] {
         let (n, q) = self.at(edges);
-        if self.mode == Mode::Linear {
-            n
-        } else {
-            n.map(|n| quotient(n, q))
-        }
+        if self.mode == Mode::Linear { n } else { n.map(|n| quotient(n, q)) }
     }
 
     /// The straight line through a block, whose edge functions at its first pixel are `edges`.
@@ -245,22 +234,14 @@ impl<const N: usize> Varyings<N> {
             }
             steps
         };
-        Ramp {
-            varyings: self,
-            quotients,
-            steps,
-        }
+        Ramp { varyings: self, quotients, steps }
     }
 
     /// The divided run of a block, whose edge functions at its first pixel are `edges`.
     #[inline]
     pub(crate) fn divided(&self, edges: [i64; 3]) -> Divided<'_, N> {
         let (n, q) = self.at(edges);
-        Divided {
-            varyings: self,
-            n,
-            q,
-        }
+        Divided { varyings: self, n, q }
     }
 }
 
@@ -278,14 +259,8 @@ fn per_pixel(last: i32, first: i32, steps: i32) -> i32 {
 }
 
 /// The table of [`per_pixel`].
-#[expect(
-    clippy::indexing_slicing,
-    reason = "n is below the length; evaluated at compile time"
-)]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "at most 2^31 from n = 2 on"
-)]
+#[expect(clippy::indexing_slicing, reason = "n is below the length; evaluated at compile time")]
+#[expect(clippy::cast_possible_truncation, reason = "at most 2^31 from n = 2 on")]
 const fn inverses() -> [u32; 64] {
     let mut table = [0; 64];
     let mut n = 2;
@@ -296,8 +271,8 @@ const fn inverses() -> [u32; 64] {
     table
 }
 
-/// Weights from edge functions, or their steps, Q32. On a row of two covered pixels or more both are at
-/// most 1 in magnitude; steeper steps are never taken, so they are clamped.
+/// Weights from edge functions, or their steps, Q32. On a row of two covered pixels or more both
+/// are at most 1 in magnitude; steeper steps are never taken, so they are clamped.
 #[inline]
 fn weights(scale: &[Scale; 3], edges: [i64; 3]) -> [i64; 3] {
     const LIMIT: i64 = (1 << 32) - 1;

@@ -1,7 +1,20 @@
-//! A `#![no_std]`, allocation-free triangle rasterizer with exact coverage, for microcontrollers with displays.
+//! A `#![no_std]`, allocation-free triangle rasterizer with exact coverage, for microcontrollers
+//! with displays.
 //!
 //! Work in progress docs.
 #![no_std]
+#![cfg_attr(
+    test,
+    allow(
+        clippy::cast_lossless,
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_precision_loss,
+        clippy::cast_sign_loss,
+        clippy::float_arithmetic,
+        reason = "tests compare with f64 and count with small numbers"
+    )
+)]
 
 #[cfg(test)]
 extern crate std;

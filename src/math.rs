@@ -12,10 +12,7 @@ pub(crate) const fn shr_round(v: i64, n: u32) -> i64 {
 
 /// The nearest `i32`: what does not fit becomes the end of the range.
 #[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "clamped to the range first"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "clamped to the range first")]
 pub(crate) const fn saturate(v: i64) -> i32 {
     if v > i32::MAX as i64 {
         i32::MAX
@@ -29,20 +26,13 @@ pub(crate) const fn saturate(v: i64) -> i32 {
 /// The low 32 bits, two's complement: for running values that wrap by intent, and for values whose
 /// range is proved where it is called.
 #[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the low word is what is asked for"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "the low word is what is asked for")]
 pub(crate) const fn low(v: i64) -> i32 {
     v as i32
 }
 
 /// The high 32 bits.
 #[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the high word fits 32 bits"
-)]
 pub(crate) const fn high(v: u64) -> u32 {
     (v >> 32) as u32
 }
@@ -53,9 +43,9 @@ pub(crate) fn index(v: i32) -> usize {
     usize::try_from(v).unwrap_or(usize::MAX)
 }
 
-/// A bit count as an exponent. Counts are at most 128.
+/// A count as a signed number. Counts are below 2^31.
 #[inline]
-#[expect(clippy::cast_possible_wrap, reason = "bit counts are at most 128")]
+#[expect(clippy::cast_possible_wrap, reason = "below 2^31")]
 pub(crate) const fn bits(n: u32) -> i32 {
     n as i32
 }
@@ -64,14 +54,8 @@ pub(crate) const fn bits(n: u32) -> i32 {
 /// leading one: `round(2^17 / (257 + 2 i)) - 256`, which is off by at most 1 part in 2^8.
 const SEED: [u8; 128] = seed();
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "entries are 0 to 254; a test recomputes them"
-)]
-#[expect(
-    clippy::indexing_slicing,
-    reason = "i is below the length; evaluated at compile time"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "entries are 0 to 254; a test recomputes them")]
+#[expect(clippy::indexing_slicing, reason = "i is below the length; evaluated at compile time")]
 const fn seed() -> [u8; 128] {
     let mut table = [0; 128];
     let mut i = 0;
@@ -88,33 +72,22 @@ const fn seed() -> [u8; 128] {
 /// The result is in `[2^31 - 8, 2^32)` and never off by more than one part in 2^29
 /// (`reciprocal_is_close` in this file). No division: 32-bit cores without one run it as fast.
 #[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "17 and 32 bits, as the comments bound them"
-)]
-#[expect(
-    clippy::cast_sign_loss,
-    reason = "a correction never exceeds what it corrects"
-)]
 pub(crate) fn reciprocal(m: u32) -> u32 {
     // Q9 of 2^31 / m, in (1/2, 1]: 9 bits.
     let seed = SEED.get(((m >> 24) & 0x7f) as usize).copied().unwrap_or(0);
     let x = 256 + i32::from(seed);
     // 1/2 - x f, with f = m / 2^32 cut to 16 bits: Q25, at most 2^17 + 2^9.
-    let error = (1 << 24) - x * ((m >> 16) as i32);
+    let error = (1 << 24) - x * bits(m >> 16);
     // Q17: x + 2 x error. Relative error below 2^-14.
     let x = (x << 8) + ((x * error) >> 16);
     // Q49 with all of m: at most 2^35.
     let error = (1 << 48) - i64::from(x) * i64::from(m);
     let r = (i64::from(x) << 15) + ((i64::from(x) * error) >> 33);
-    if r > u32::MAX as i64 {
-        u32::MAX
-    } else {
-        r as u32
-    }
+    u32::try_from(r).unwrap_or(u32::MAX)
 }
 
-/// A positive real `mantissa * 2^exponent` with `mantissa` in `[2^31, 2^32)`, or zero with mantissa 0.
+/// A positive real `mantissa * 2^exponent` with `mantissa` in `[2^31, 2^32)`, or zero with mantissa
+/// 0.
 ///
 /// Every operation truncates or is off by less than one part in 2^29, so a product of three is
 /// within 2^-27: the bound that the attribute and depth budgets are written in.
@@ -128,35 +101,23 @@ impl Scale {
     /// `2^exponent`.
     #[inline]
     pub(crate) const fn power_of_two(exponent: i32) -> Self {
-        Self {
-            mantissa: 1 << 31,
-            exponent: exponent - 31,
-        }
+        Self { mantissa: 1 << 31, exponent: exponent - 31 }
     }
 
     /// `v`, truncated to 32 bits of precision.
     #[inline]
     pub(crate) const fn of(v: u64) -> Self {
         if v == 0 {
-            return Self {
-                mantissa: 0,
-                exponent: 0,
-            };
+            return Self { mantissa: 0, exponent: 0 };
         }
         let zeros = v.leading_zeros();
-        Self {
-            mantissa: high(v << zeros),
-            exponent: 32 - bits(zeros),
-        }
+        Self { mantissa: high(v << zeros), exponent: 32 - bits(zeros) }
     }
 
     /// `1 / self`; of zero, the largest mantissa (callers exclude zero).
     #[inline]
     pub(crate) fn reciprocal(self) -> Self {
-        Self {
-            mantissa: reciprocal(self.mantissa),
-            exponent: -63 - self.exponent,
-        }
+        Self { mantissa: reciprocal(self.mantissa), exponent: -63 - self.exponent }
     }
 
     /// `self * other`, truncated.
@@ -170,14 +131,11 @@ impl Scale {
         }
     }
 
-    /// `v * self * 2^fraction`, rounded to nearest (to one part in 2^62 and half a unit), saturating to
-    /// `i64`.
+    /// `v * self * 2^fraction`, rounded to nearest (to one part in 2^62 and half a unit),
+    /// saturating to `i64`.
     #[inline]
     #[expect(clippy::cast_possible_wrap, reason = "below 2^63 where it is cast")]
-    #[expect(
-        clippy::cast_sign_loss,
-        reason = "a right shift of 1 to 64 where it is cast"
-    )]
+    #[expect(clippy::cast_sign_loss, reason = "a right shift of 1 to 64 where it is cast")]
     pub(crate) const fn apply(self, v: i64, fraction: i32) -> i64 {
         let magnitude = v.unsigned_abs();
         if magnitude == 0 || self.mantissa == 0 {
@@ -219,10 +177,7 @@ mod tests {
         for m in mantissas() {
             let exact = (1u128 << 63) / u128::from(m);
             let r = u128::from(reciprocal(m));
-            assert!(
-                exact.abs_diff(r) << 29 <= exact,
-                "1 / {m}: {r}, not {exact}"
-            );
+            assert!(exact.abs_diff(r) << 29 <= exact, "1 / {m}: {r}, not {exact}");
         }
     }
 
@@ -239,18 +194,11 @@ mod tests {
     fn apply_agrees_with_wide_arithmetic() {
         for (i, m) in mantissas().enumerate().take(5000) {
             let v = (i64::from(m) * 77_777).wrapping_mul(i as i64 | 1) >> (i % 60);
-            let scale = Scale {
-                mantissa: m,
-                exponent: -31 - (i as i32 % 40),
-            };
+            let scale = Scale { mantissa: m, exponent: -31 - (i as i32 % 40) };
             for fraction in [-4, 0, 12, 40] {
                 let shift = -(scale.exponent + fraction);
                 let exact = i128::from(v) * i128::from(m);
-                let exact = if shift >= 0 {
-                    exact >> shift.min(127)
-                } else {
-                    exact << -shift
-                };
+                let exact = if shift >= 0 { exact >> shift.min(127) } else { exact << -shift };
                 let got = i128::from(scale.apply(v, fraction));
                 if exact.unsigned_abs() < 1 << 62 {
                     assert!(

@@ -1,4 +1,5 @@
-//! Meshes: borrowed vertices, attributes and indices, and the vertex stage that turns them into clip space.
+//! Meshes: borrowed vertices, attributes and indices, and the vertex stage that turns them into
+//! clip space.
 
 mod light;
 
@@ -28,8 +29,9 @@ impl StoredPosition for [i32; 3] {
     }
 }
 
-/// An indexed triangle mesh over borrowed data, which can all be in flash: positions `P` (`[i16; 3]` or `[i32; 3]`),
-/// one attribute `A` a vertex (whatever the vertex stage reads), and three indices a triangle.
+/// An indexed triangle mesh over borrowed data, which can all be in flash: positions `P`
+/// (`[i16; 3]` or `[i32; 3]`), one attribute `A` a vertex (whatever the vertex stage reads), and
+/// three indices a triangle.
 ///
 /// ```
 /// use hither::Mesh;
@@ -55,13 +57,13 @@ pub struct Mesh<'a, P, A> {
 }
 
 impl<'a, P, A> Mesh<'a, P, A> {
-    /// A mesh whose positions have `fraction_bits` bits of fraction: stored coordinate 1 is `2^-fraction_bits` model
-    /// units. Indices are checked here, once.
+    /// A mesh whose positions have `fraction_bits` bits of fraction: stored coordinate 1 is
+    /// `2^-fraction_bits` model units. Indices are checked here, once.
     ///
     /// # Errors
     ///
-    /// [`MeshError`] where an index is out of range (the first one), the numbers of positions and attributes differ, or
-    /// `fraction_bits` is over 31.
+    /// [`MeshError`] where an index is out of range (the first one), the numbers of positions and
+    /// attributes differ, or `fraction_bits` is over 31.
     pub const fn try_new(
         positions: &'a [P],
         fraction_bits: u32,
@@ -69,16 +71,11 @@ impl<'a, P, A> Mesh<'a, P, A> {
         triangles: &'a [[u16; 3]],
     ) -> Result<Self, MeshError> {
         if fraction_bits > 31 {
-            return Err(MeshError::Fraction {
-                bits: fraction_bits,
-            });
+            return Err(MeshError::Fraction { bits: fraction_bits });
         }
         if positions.len() != attributes.len() {
             let (positions, attributes) = (positions.len(), attributes.len());
-            return Err(MeshError::Attributes {
-                positions,
-                attributes,
-            });
+            return Err(MeshError::Attributes { positions, attributes });
         }
         let mut rest = triangles;
         while let Some(([p, q, r], others)) = rest.split_first() {
@@ -86,33 +83,16 @@ impl<'a, P, A> Mesh<'a, P, A> {
             let triangle = triangles.len() - rest.len();
             rest = others;
             if *p as usize >= vertices {
-                return Err(MeshError::Index {
-                    triangle,
-                    index: *p,
-                    vertices,
-                });
+                return Err(MeshError::Index { triangle, index: *p, vertices });
             }
             if *q as usize >= vertices {
-                return Err(MeshError::Index {
-                    triangle,
-                    index: *q,
-                    vertices,
-                });
+                return Err(MeshError::Index { triangle, index: *q, vertices });
             }
             if *r as usize >= vertices {
-                return Err(MeshError::Index {
-                    triangle,
-                    index: *r,
-                    vertices,
-                });
+                return Err(MeshError::Index { triangle, index: *r, vertices });
             }
         }
-        Ok(Self {
-            positions,
-            fraction_bits,
-            attributes,
-            triangles,
-        })
+        Ok(Self { positions, fraction_bits, attributes, triangles })
     }
 
     /// Vertices: as many entries as a cache that holds all of them has.
@@ -133,13 +113,8 @@ impl<P: StoredPosition, A> Mesh<'_, P, A> {
     #[inline]
     pub(crate) fn vertex(&self, index: usize) -> Option<(ModelPosition, &A)> {
         let raw = self.positions.get(index)?.raw();
-        let position = ModelPosition {
-            raw,
-            fraction_bits: self.fraction_bits,
-        };
-        self.attributes
-            .get(index)
-            .map(|attribute| (position, attribute))
+        let position = ModelPosition { raw, fraction_bits: self.fraction_bits };
+        self.attributes.get(index).map(|attribute| (position, attribute))
     }
 }
 
@@ -174,24 +149,14 @@ pub enum MeshError {
 impl core::fmt::Display for MeshError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::Index {
-                triangle,
-                index,
-                vertices,
-            } => {
+            Self::Index { triangle, index, vertices } => {
                 write!(
                     f,
                     "triangle {triangle} has index {index}, but there are {vertices} vertices"
                 )
             }
-            Self::Attributes {
-                positions,
-                attributes,
-            } => {
-                write!(
-                    f,
-                    "{attributes} attributes for {positions} positions: one each is needed"
-                )
+            Self::Attributes { positions, attributes } => {
+                write!(f, "{attributes} attributes for {positions} positions: one each is needed")
             }
             Self::Fraction { bits } => {
                 write!(f, "positions with {bits} fraction bits: at most 31")
@@ -202,7 +167,8 @@ impl core::fmt::Display for MeshError {
 
 impl core::error::Error for MeshError {}
 
-/// The vertex stage: from a mesh's vertex to clip space and `N` varyings. The user's to replace: skinning, waves, light.
+/// The vertex stage: from a mesh's vertex to clip space and `N` varyings. The user's to replace:
+/// skinning, waves, light.
 ///
 /// Called once a vertex that is in the cache, once a corner otherwise. A [`Mat4`] is one (it passes
 /// attributes on), and so is [`Lit`](crate::Lit).
@@ -281,25 +247,12 @@ mod tests {
         let mesh = |t: &'static [[u16; 3]]| Mesh::try_new(&positions, 4, &[(); 3], t).err();
         assert_eq!(mesh(&[[0, 1, 2], [2, 1, 0]]), None);
         assert_eq!(mesh(&[]), None);
-        for bad in [
-            &[[0, 1, 2], [3, 0, 0]],
-            &[[0, 1, 2], [0, 3, 0]],
-            &[[0, 1, 2], [0, 0, 3]],
-        ] {
+        for bad in [&[[0, 1, 2], [3, 0, 0]], &[[0, 1, 2], [0, 3, 0]], &[[0, 1, 2], [0, 0, 3]]] {
             let error = mesh(bad).unwrap();
-            assert_eq!(
-                error.to_string(),
-                "triangle 1 has index 3, but there are 3 vertices"
-            );
+            assert_eq!(error.to_string(), "triangle 1 has index 3, but there are 3 vertices");
         }
         let error = Mesh::try_new(&positions, 4, &[(); 2], &[]).unwrap_err();
-        assert_eq!(
-            error,
-            MeshError::Attributes {
-                positions: 3,
-                attributes: 2
-            }
-        );
+        assert_eq!(error, MeshError::Attributes { positions: 3, attributes: 2 });
         assert!(Mesh::try_new(&positions, 32, &[(); 3], &[]).is_err());
     }
 
@@ -307,10 +260,7 @@ mod tests {
     fn bytes_are_the_nearest_fraction() {
         for byte in 0..=255u8 {
             let exact = f64::from(byte) / 255.0 * 65536.0;
-            assert!(
-                (f64::from(unit(byte).to_bits()) - exact).abs() <= 0.5 + 1e-9,
-                "{byte}"
-            );
+            assert!((f64::from(unit(byte).to_bits()) - exact).abs() <= 0.5 + 1e-9, "{byte}");
         }
     }
 }

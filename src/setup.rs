@@ -1,15 +1,16 @@
 //! Triangle setup: three snapped vertices in, three edge functions and a box out.
 //!
-//! With `M` the 3 x 3 matrix whose rows are the vertices `(x, y, w)`, the edge functions are the rows of
-//! `adj(M)`: each is zero on an edge and has the sign of `det M` at the vertex opposite (Olano & Greer 1997,
-//! sections 4 and 5.1, equation 4). No vertex is divided by its `w`. The determinant's sign is the facing
-//! (section 5.2). Where all three, oriented by that sign, are positive, the triangle is in front of the eye;
-//! where all are negative it is behind (the footnote in 5.1).
+//! With `M` the 3 x 3 matrix whose rows are the vertices `(x, y, w)`, the edge functions are the
+//! rows of `adj(M)`: each is zero on an edge and has the sign of `det M` at the vertex opposite
+//! (Olano & Greer 1997, sections 4 and 5.1, equation 4). No vertex is divided by its `w`. The
+//! determinant's sign is the facing (section 5.2). Where all three, oriented by that sign, are
+//! positive, the triangle is in front of the eye; where all are negative it is behind (the footnote
+//! in 5.1).
 //!
 //! The edges come out as integers over the screen, the same form for every tier:
-//! `E_i(X, Y) = ((a_i X + b_i Y) << step) + c_i` at the centre of pixel `(X, Y)`, positive inside. From
-//! them everything else follows: coverage is their signs, clip planes and attributes are their linear
-//! combinations.
+//! `E_i(X, Y) = ((a_i X + b_i Y) << step) + c_i` at the centre of pixel `(X, Y)`, positive inside.
+//! From them everything else follows: coverage is their signs, clip planes and attributes are their
+//! linear combinations.
 
 mod exact;
 mod quick;
@@ -58,10 +59,7 @@ impl Cull {
     /// Whether a facing is left out.
     #[inline]
     pub(crate) fn hides(self, facing: Facing) -> bool {
-        matches!(
-            (self, facing),
-            (Self::Front, Facing::Front) | (Self::Back, Facing::Back)
-        )
+        matches!((self, facing), (Self::Front, Facing::Front) | (Self::Back, Facing::Back))
     }
 }
 
@@ -105,12 +103,7 @@ impl Setup {
     #[inline]
     pub(crate) fn mirrored(&self) -> Self {
         let negate = |v: [i64; 3]| v.map(|v| -v);
-        Self {
-            a: negate(self.a),
-            b: negate(self.b),
-            c: negate(self.c),
-            ..*self
-        }
+        Self { a: negate(self.a), b: negate(self.b), c: negate(self.c), ..*self }
     }
 
     /// The edge functions at the centre of a pixel; all are positive or zero where it is covered.
@@ -123,8 +116,8 @@ impl Setup {
     }
 }
 
-/// A vertex as the bounding box sees it: pixel space `(x, y, w)`, y down, in any positive scale, and
-/// the first column and row at or beyond it.
+/// A vertex as the bounding box sees it: pixel space `(x, y, w)`, y down, in any positive scale,
+/// and the first column and row at or beyond it.
 #[derive(Clone, Copy)]
 pub(crate) struct Extent {
     pub(crate) point: [i64; 3],
@@ -135,11 +128,12 @@ pub(crate) struct Extent {
 /// (Zwicker 2008, section 4, after Blinn 1996).
 ///
 /// The least column among the vertices with `w > 0` bounds the front part on the left if the linear
-/// function that is zero on the column before it is positive at the other vertices too: then it is positive over
-/// the whole triangle. Where it is not, the triangle wraps through infinity there, and the viewport's side is
-/// the bound. The other three sides are the same, and the part behind is the front part of the mirrored vertices.
-/// With all `w > 0` this is the box of the projected triangle, exact at both ends: a covered centre
-/// is never on the rightmost or lowest vertex, by the top-left rule.
+/// function that is zero on the column before it is positive at the other vertices too: then it is
+/// positive over the whole triangle. Where it is not, the triangle wraps through infinity there,
+/// and the viewport's side is the bound. The other three sides are the same, and the part behind is
+/// the front part of the mirrored vertices. With all `w > 0` this is the box of the projected
+/// triangle, exact at both ends: a covered centre is never on the rightmost or lowest vertex, by
+/// the top-left rule.
 pub(crate) fn bounds(vertices: &[Extent; 3], viewport: &Viewport) -> [Rect; 2] {
     let side = |axis: usize, sign: i64, size: i32| span(vertices, axis, sign, size);
     [1, -1].map(|sign| {
@@ -166,16 +160,8 @@ fn span(vertices: &[Extent; 3], axis: usize, sign: i64, size: i32) -> [i32; 2] {
     let beyond =
         |v: &Extent, pixel: i32| sign * (2 * position(v) - i64::from(2 * pixel + 1) * v.point[2]);
     let others = || vertices.iter().filter(|v| !ahead(v));
-    let low = if others().all(|v| beyond(v, least - 1) >= 0) {
-        least
-    } else {
-        0
-    };
-    let high = if others().all(|v| beyond(v, most + 1) <= 0) {
-        most + 1
-    } else {
-        size
-    };
+    let low = if others().all(|v| beyond(v, least - 1) >= 0) { least } else { 0 };
+    let high = if others().all(|v| beyond(v, most + 1) <= 0) { most + 1 } else { size };
     [low, high.min(size)]
 }
 
@@ -191,10 +177,7 @@ mod tests {
             let (v, w) = (v * w.signum(), w.abs());
             ((2 * v - w) + 2 * w - 1).div_euclid(2 * w).clamp(0, 16) as i32
         };
-        Extent {
-            point: [x, y, w],
-            first: [first(x), first(y)],
-        }
+        Extent { point: [x, y, w], first: [first(x), first(y)] }
     }
 
     fn boxes(v: [[i64; 3]; 3]) -> [Rect; 2] {
@@ -206,15 +189,7 @@ mod tests {
     fn with_positive_w_it_is_the_box_of_the_centres() {
         // Corners (2, 3), (9.5, 4), (5, 12): the centre at 9.5 is not covered.
         let [front, behind] = boxes([[2, 3, 1], [19, 8, 2], [15, 36, 3]]);
-        assert_eq!(
-            front,
-            Rect {
-                x0: 2,
-                y0: 3,
-                x1: 9,
-                y1: 12
-            }
-        );
+        assert_eq!(front, Rect { x0: 2, y0: 3, x1: 9, y1: 12 });
         assert!(behind.is_empty());
     }
 
@@ -222,38 +197,14 @@ mod tests {
     fn a_vertex_behind_the_eye_opens_the_side_it_wraps_through() {
         // (4, 4) and (6, 4) in front, (5, 20) behind: the front part runs up and off the screen.
         let [front, behind] = boxes([[4, 4, 1], [6, 4, 1], [-5, -20, -1]]);
-        assert_eq!(
-            front,
-            Rect {
-                x0: 0,
-                y0: 0,
-                x1: 16,
-                y1: 5
-            }
-        );
-        assert_eq!(
-            behind,
-            Rect {
-                x0: 0,
-                y0: 16,
-                x1: 16,
-                y1: 16
-            }
-        );
+        assert_eq!(front, Rect { x0: 0, y0: 0, x1: 16, y1: 5 });
+        assert_eq!(behind, Rect { x0: 0, y0: 16, x1: 16, y1: 16 });
     }
 
     #[test]
     fn a_vertex_at_infinity_bounds_the_other_side() {
         // A strip from x = 4 to 6 that runs down without end.
         let [front, _] = boxes([[4, 4, 1], [6, 4, 1], [0, 1, 0]]);
-        assert_eq!(
-            front,
-            Rect {
-                x0: 4,
-                y0: 4,
-                x1: 7,
-                y1: 16
-            }
-        );
+        assert_eq!(front, Rect { x0: 4, y0: 4, x1: 7, y1: 16 });
     }
 }

@@ -29,11 +29,7 @@ mod tests {
 
     #[test]
     fn blocks_cover_the_span_once() {
-        let span = Span {
-            y: 3,
-            x0: 5,
-            x1: 22,
-        };
+        let span = Span { y: 3, x0: 5, x1: 22 };
         let blocks: Vec<_> = span.blocks(8).map(|b| (b.y, b.x0, b.x1)).collect();
         assert_eq!(blocks, [(3, 5, 13), (3, 13, 21), (3, 21, 22)]);
         assert_eq!(span.blocks(i32::MAX).count(), 1);

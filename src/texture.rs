@@ -5,8 +5,8 @@ use fixed::types::I16F16;
 
 /// A texture of `width x height` texels stored as `F`, rows from the top, in flash or RAM.
 ///
-/// Coordinates `u`, `v` are in `[0, 1]` across it, v down; outside, it repeats, for negative ones too. Sides need not be
-/// powers of two.
+/// Coordinates `u`, `v` are in `[0, 1]` across it, v down; outside, it repeats, for negative ones
+/// too. Sides need not be powers of two.
 #[derive(Debug)]
 pub struct Texture<'a, F: PixelFormat> {
     texels: &'a [F::Word],
@@ -30,7 +30,8 @@ impl<'a, F: PixelFormat> Texture<'a, F> {
     ///
     /// # Errors
     ///
-    /// [`TextureSize`] where a side is 0 or over [`Texture::MAX_SIDE`], or the number of words differs.
+    /// [`TextureSize`] where a side is 0 or over [`Texture::MAX_SIDE`], or the number of words
+    /// differs.
     pub const fn try_new(
         texels: &'a [F::Word],
         width: u32,
@@ -39,17 +40,9 @@ impl<'a, F: PixelFormat> Texture<'a, F> {
         let sides = width >= 1 && width <= Self::MAX_SIDE && height >= 1;
         let fits = sides && height <= Self::MAX_SIDE && texels.len() == (width * height) as usize;
         if fits {
-            Ok(Self {
-                texels,
-                width,
-                height,
-            })
+            Ok(Self { texels, width, height })
         } else {
-            Err(TextureSize {
-                width,
-                height,
-                words: texels.len(),
-            })
+            Err(TextureSize { width, height, words: texels.len() })
         }
     }
 
@@ -70,8 +63,9 @@ impl<'a, F: PixelFormat> Texture<'a, F> {
     }
 }
 
-/// The texel of `0 .. side` that a coordinate falls in: its fraction times the side. Two's complement makes the
-/// fraction of a negative coordinate count from the next lower integer, which is what repeating means.
+/// The texel of `0 .. side` that a coordinate falls in: its fraction times the side. Two's
+/// complement makes the fraction of a negative coordinate count from the next lower integer, which
+/// is what repeating means.
 #[inline]
 #[expect(clippy::cast_sign_loss, reason = "16 bits, masked")]
 fn texel(coordinate: I16F16, side: u32) -> u32 {
@@ -92,11 +86,7 @@ pub struct TextureSize {
 
 impl core::fmt::Display for TextureSize {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self {
-            width,
-            height,
-            words,
-        } = self;
+        let Self { width, height, words } = self;
         write!(
             f,
             "a texture of {width} x {height} texels in {words} words: sides are 1 to 4096, a word a texel"
@@ -126,14 +116,7 @@ mod tests {
         assert_eq!(texture.nearest(half, half), Some(Gray8(5)));
         for (width, height) in [(3, 3), (0, 0), (2, 2), (4097, 1), (u32::MAX, u32::MAX)] {
             let error = Texture::<Gray8>::try_new(&words, width, height).unwrap_err();
-            assert_eq!(
-                error,
-                TextureSize {
-                    width,
-                    height,
-                    words: 6
-                }
-            );
+            assert_eq!(error, TextureSize { width, height, words: 6 });
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Transforms: a fixed-point 4 x 4 matrix, for chips with or without an FPU.
 //!
-//! Entries are Q16.16: the left three columns in ±8192, the fourth (translation) in ±32768. A product sums in
-//! 64 bits: a row times a column is at most `3 (2^29 2^29) + 2^31 2^31 < 2^63`, and a row times a position of 32
-//! bits at most `3 (2^29 2^31) + 2^62 < 2^63`. Each is rounded once, to half a raw step (2^-17). What a product of matrices
-//! cannot hold is an error; what a position cannot hold is shifted, all four coordinates together, so it
-//! stays where it is on the screen.
+//! Entries are Q16.16: the left three columns in ±8192, the fourth (translation) in ±32768. A
+//! product sums in 64 bits: a row times a column is at most `3 (2^29 2^29) + 2^31 2^31 < 2^63`, and
+//! a row times a position of 32 bits at most `3 (2^29 2^31) + 2^62 < 2^63`. Each is rounded once,
+//! to half a raw step (2^-17). What a product of matrices cannot hold is an error; what a position
+//! cannot hold is shifted, all four coordinates together, so it stays where it is on the screen.
 
 mod angle;
 #[cfg(feature = "micromath")]
@@ -41,14 +41,8 @@ pub struct Mat4 {
 
 impl Mat4 {
     /// The matrix that changes nothing.
-    pub const IDENTITY: Self = Self {
-        rows: [
-            [ONE, 0, 0, 0],
-            [0, ONE, 0, 0],
-            [0, 0, ONE, 0],
-            [0, 0, 0, ONE],
-        ],
-    };
+    pub const IDENTITY: Self =
+        Self { rows: [[ONE, 0, 0, 0], [0, ONE, 0, 0], [0, 0, ONE, 0], [0, 0, 0, ONE]] };
 
     /// Entries of the left three columns are at most this in magnitude, raw.
     const LIMIT: i64 = 8192 << 16;
@@ -72,19 +66,13 @@ impl Mat4 {
     fn checked(raw: [[i64; 4]; 4]) -> Result<Self, MatrixError> {
         for (row, entries) in raw.iter().enumerate() {
             for (column, &entry) in entries.iter().enumerate() {
-                let limit = if column < 3 {
-                    Self::LIMIT
-                } else {
-                    i32::MAX as i64
-                };
+                let limit = if column < 3 { Self::LIMIT } else { i64::from(i32::MAX) };
                 if entry.abs() > limit {
                     return Err(MatrixError::Range { row, column });
                 }
             }
         }
-        Ok(Self {
-            rows: raw.map(|row| row.map(low)),
-        })
+        Ok(Self { rows: raw.map(|row| row.map(low)) })
     }
 
     /// The product: `rhs` is applied first.
@@ -109,12 +97,7 @@ impl Mat4 {
     #[must_use]
     pub const fn translation(by: Vec3) -> Self {
         let [x, y, z] = [by[0].to_bits(), by[1].to_bits(), by[2].to_bits()];
-        let rows = [
-            [ONE, 0, 0, x],
-            [0, ONE, 0, y],
-            [0, 0, ONE, z],
-            [0, 0, 0, ONE],
-        ];
+        let rows = [[ONE, 0, 0, x], [0, ONE, 0, y], [0, 0, ONE, z], [0, 0, 0, ONE]];
         Self { rows }
     }
 
@@ -133,27 +116,21 @@ impl Mat4 {
     #[must_use]
     pub fn rotation_x(by: SinCos) -> Self {
         let (s, c) = by.raw();
-        Self {
-            rows: [[ONE, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, ONE]],
-        }
+        Self { rows: [[ONE, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, ONE]] }
     }
 
     /// Turns about the y axis, z towards x.
     #[must_use]
     pub fn rotation_y(by: SinCos) -> Self {
         let (s, c) = by.raw();
-        Self {
-            rows: [[c, 0, s, 0], [0, ONE, 0, 0], [-s, 0, c, 0], [0, 0, 0, ONE]],
-        }
+        Self { rows: [[c, 0, s, 0], [0, ONE, 0, 0], [-s, 0, c, 0], [0, 0, 0, ONE]] }
     }
 
     /// Turns about the z axis, x towards y.
     #[must_use]
     pub fn rotation_z(by: SinCos) -> Self {
         let (s, c) = by.raw();
-        Self {
-            rows: [[c, -s, 0, 0], [s, c, 0, 0], [0, 0, ONE, 0], [0, 0, 0, ONE]],
-        }
+        Self { rows: [[c, -s, 0, 0], [s, c, 0, 0], [0, 0, ONE, 0], [0, 0, 0, ONE]] }
     }
 
     /// The view from `eye` towards `target`: x to the right, y up, looking along negative z.
@@ -161,7 +138,8 @@ impl Mat4 {
     /// # Errors
     ///
     /// [`MatrixError::Direction`] where `eye` is `target`, or `up` is zero or along the view;
-    /// [`MatrixError::Range`] where the eye is so far out that the view's translation leaves ±32768.
+    /// [`MatrixError::Range`] where the eye is so far out that the view's translation leaves
+    /// ±32768.
     pub fn look_at(eye: Vec3, target: Vec3, up: Vec3) -> Result<Self, MatrixError> {
         let raw = |v: Vec3| v.map(|v| i64::from(v.to_bits()));
         let ([ex, ey, ez], [tx, ty, tz]) = (raw(eye), raw(target));
@@ -182,11 +160,11 @@ impl Mat4 {
         Self::checked([row(right), row(up), row(back), [0, 0, 0, i64::from(ONE)]])
     }
 
-    /// A perspective projection from view space (looking along negative z) to clip space: `w` is the distance from the
-    /// eye's plane, `z / w` is 0 at `near` and 1 at `far`.
+    /// A perspective projection from view space (looking along negative z) to clip space: `w` is
+    /// the distance from the eye's plane, `z / w` is 0 at `near` and 1 at `far`.
     ///
-    /// `focal` is the focal length in half picture heights, `1 / tan(fov_y / 2)`; `aspect` is width by height.
-    /// The frame's [`Hither`](crate::Hither) plane belongs at `near`.
+    /// `focal` is the focal length in half picture heights, `1 / tan(fov_y / 2)`; `aspect` is width
+    /// by height. The frame's [`Hither`](crate::Hither) plane belongs at `near`.
     ///
     /// # Errors
     ///
@@ -208,12 +186,7 @@ impl Mat4 {
         Self::checked([
             [rounded(focal << 16, aspect), 0, 0, 0],
             [0, focal, 0, 0],
-            [
-                0,
-                0,
-                -rounded(far << 16, depth),
-                -rounded(far * near, depth),
-            ],
+            [0, 0, -rounded(far << 16, depth), -rounded(far * near, depth)],
             [0, 0, -one, 0],
         ])
     }
@@ -232,8 +205,8 @@ impl Mat4 {
         }))
     }
 
-    /// A direction through the inverse of a matrix of rotations and one uniform scale, at unit length in Q30: what brings
-    /// a light into model space. `None` where it vanishes.
+    /// A direction through the inverse of a matrix of rotations and one uniform scale, at unit
+    /// length in Q30: what brings a light into model space. `None` where it vanishes.
     pub(crate) fn unturn(&self, direction: Vec3) -> Option<[i64; 3]> {
         let [r0, r1, r2, _] = self.rows;
         let [x, y, z] = unit(direction.map(|v| i64::from(v.to_bits())))?;
@@ -264,16 +237,8 @@ fn unit(v: [i64; 3]) -> Option<[i64; 3]> {
     }
     // The largest to 30 bits, so that three squares fit.
     let length = 64 - largest.leading_zeros();
-    let v = v.map(|v| {
-        if length > 30 {
-            v >> (length - 30)
-        } else {
-            v << (30 - length)
-        }
-    });
-    let squares = v
-        .iter()
-        .fold(0, |sum, v| sum + v.unsigned_abs() * v.unsigned_abs());
+    let v = v.map(|v| if length > 30 { v >> (length - 30) } else { v << (30 - length) });
+    let squares = v.iter().fold(0, |sum, v| sum + v.unsigned_abs() * v.unsigned_abs());
     let norm = squares.isqrt() as i64;
     (norm > 0).then(|| v.map(|v| (v << 30) / norm))
 }
@@ -301,10 +266,7 @@ impl core::fmt::Display for MatrixError {
         match self {
             Self::Range { row, column } => {
                 let limit = if *column < 3 { 8192 } else { 32768 };
-                write!(
-                    f,
-                    "the matrix entry in row {row}, column {column} is beyond ±{limit}"
-                )
+                write!(f, "the matrix entry in row {row}, column {column} is beyond ±{limit}")
             }
             Self::Direction => {
                 f.write_str("the view has no direction: eye, target and up are in line")
@@ -328,19 +290,12 @@ mod tests {
 
     fn apply(m: &Mat4, p: [f64; 3]) -> [f64; 4] {
         let raw = p.map(|v| (v * 4096.0).round() as i32);
-        let v = m.transform(ModelPosition {
-            raw,
-            fraction_bits: 12,
-        });
-        v.raw
-            .map(|c| f64::from(c) / 65536.0 * f64::from(u32::from(v.shift)).exp2())
+        let v = m.transform(ModelPosition { raw, fraction_bits: 12 });
+        v.raw.map(|c| f64::from(c) / 65536.0 * f64::from(u32::from(v.shift)).exp2())
     }
 
     fn close(a: [f64; 4], b: [f64; 4], bound: f64) {
-        assert!(
-            a.iter().zip(b).all(|(a, b)| (a - b).abs() <= bound),
-            "{a:?} is not {b:?}"
-        );
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= bound), "{a:?} is not {b:?}");
     }
 
     #[test]
@@ -355,11 +310,7 @@ mod tests {
     #[test]
     fn views_look_along_negative_z() {
         let at = |v: [f64; 3]| v.map(fixed);
-        let view = Mat4::look_at(
-            at([3.0, 2.0, 5.0]),
-            at([0.0, 2.0, 1.0]),
-            at([0.0, 1.0, 0.0]),
-        );
+        let view = Mat4::look_at(at([3.0, 2.0, 5.0]), at([0.0, 2.0, 1.0]), at([0.0, 1.0, 0.0]));
         let view = view.unwrap();
         close(apply(&view, [3.0, 2.0, 5.0]), [0.0, 0.0, 0.0, 1.0], 1e-3);
         close(apply(&view, [0.0, 2.0, 1.0]), [0.0, 0.0, -5.0, 1.0], 1e-3);
@@ -388,10 +339,7 @@ mod tests {
         assert_eq!(error, MatrixError::Range { row: 0, column: 0 });
         assert!(Mat4::scaling([fixed(8193.0); 3]).is_err());
         let raw = [i32::MIN, i32::MAX, 1];
-        let v = large.transform(ModelPosition {
-            raw,
-            fraction_bits: 0,
-        });
+        let v = large.transform(ModelPosition { raw, fraction_bits: 0 });
         let unit = f64::from(u32::from(v.shift)).exp2() / 65536.0;
         let x = f64::from(v.raw[0]) * unit;
         assert!((x / (f64::from(i32::MIN) * 8192.0) - 1.0).abs() < 1e-8);

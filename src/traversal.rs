@@ -1,15 +1,15 @@
 //! Scanline traversal: from edge functions to spans, by additions.
 //!
-//! Each edge keeps the end of its interval on the current row and its exact value there. A row adds the
-//! edge's `b`; then the end moves a pixel at a time, one addition each, until the value changes sign
-//! (Pineda 1988's incremental edge functions, looked at only along the boundary). There is no test in the
-//! pixels between. An edge's end moves one way only, down the rows, so a triangle costs its rows plus at most
-//! its width an edge: the loops are bounded by the box.
+//! Each edge keeps the end of its interval on the current row and its exact value there. A row adds
+//! the edge's `b`; then the end moves a pixel at a time, one addition each, until the value changes
+//! sign (Pineda 1988's incremental edge functions, looked at only along the boundary). There is no
+//! test in the pixels between. An edge's end moves one way only, down the rows, so a triangle costs
+//! its rows plus at most its width an edge: the loops are bounded by the box.
 //!
-//! A left and a right end are the same walk. With `a > 0` the interval begins at the first `x` with `E >= 0`; with
-//! `a < 0` it ends before the first `x` with `-E - 1 >= 0`, which grows with `x`. An edge on a pixel centre
-//! (`E = 0`) belongs to the triangle if it is a top or a left edge; subtracting 1 from any other beforehand makes
-//! all of them `E >= 0`.
+//! A left and a right end are the same walk. With `a > 0` the interval begins at the first `x` with
+//! `E >= 0`; with `a < 0` it ends before the first `x` with `-E - 1 >= 0`, which grows with `x`. An
+//! edge on a pixel centre (`E = 0`) belongs to the triangle if it is a top or a left edge;
+//! subtracting 1 from any other beforehand makes all of them `E >= 0`.
 
 use crate::clip::{ClipEdges, HalfPlane};
 use crate::math::low;
@@ -36,8 +36,8 @@ impl EdgeInt for i32 {}
 impl EdgeInt for i64 {}
 impl EdgeInt for i128 {}
 
-/// One edge on one row: `x` is the first column of the box with `value + (column - x) a >= 0`, or the
-/// box's end.
+/// One edge on one row: `x` is the first column of the box with `value + (column - x) a >= 0`, or
+/// the box's end.
 #[derive(Clone, Copy, Debug)]
 struct Edge<I> {
     a: I,
@@ -57,21 +57,9 @@ impl<I: EdgeInt> Edge<I> {
         let value = a * I::from(bounds.x0) + b * I::from(bounds.y0) + c;
         let begins = a >= zero;
         let mut walk = if begins {
-            Self {
-                a,
-                b,
-                value,
-                x: bounds.x0,
-                begins,
-            }
+            Self { a, b, value, x: bounds.x0, begins }
         } else {
-            Self {
-                a: -a,
-                b: -b,
-                value: -value - I::from(1),
-                x: bounds.x0,
-                begins,
-            }
+            Self { a: -a, b: -b, value: -value - I::from(1), x: bounds.x0, begins }
         };
         walk.settle(bounds);
         walk
@@ -120,22 +108,14 @@ pub(crate) struct Walk<I> {
 impl<I: EdgeInt> Walk<I> {
     #[inline]
     fn new(edges: [HalfPlane<I>; 3], bounds: Rect) -> Self {
-        Self {
-            edges: edges.map(|e| Edge::new(e, &bounds)),
-            bounds,
-            y: bounds.y0,
-        }
+        Self { edges: edges.map(|e| Edge::new(e, &bounds)), bounds, y: bounds.y0 }
     }
 
     /// The next row that is covered.
     #[inline]
     fn next(&mut self) -> Option<Span> {
         while self.y < self.bounds.y1 {
-            let mut span = Span {
-                y: self.y,
-                x0: self.bounds.x0,
-                x1: self.bounds.x1,
-            };
+            let mut span = Span { y: self.y, x0: self.bounds.x0, x1: self.bounds.x1 };
             self.y += 1;
             let last = self.y == self.bounds.y1;
             for edge in &mut self.edges {
@@ -176,11 +156,7 @@ impl<const P: usize> ClipWalk<P> {
     fn cut(&mut self, mut span: Span) -> Span {
         let rows = span.y - self.y;
         self.y = span.y;
-        for edge in self
-            .hither
-            .iter_mut()
-            .chain(self.planes.iter_mut().flatten())
-        {
+        for edge in self.hither.iter_mut().chain(self.planes.iter_mut().flatten()) {
             for _ in 0..rows {
                 edge.step(&self.bounds);
             }
@@ -216,19 +192,12 @@ impl<const P: usize> Spans<P> {
     ) -> Self {
         let edges = [0, 1, 2].map(|i| biased(setup, i));
         let edges = if narrow && setup.narrow {
-            let narrow = |e: HalfPlane<i64>| HalfPlane {
-                a: low(e.a),
-                b: low(e.b),
-                c: low(e.c),
-            };
+            let narrow = |e: HalfPlane<i64>| HalfPlane { a: low(e.a), b: low(e.b), c: low(e.c) };
             Edges::Narrow(Walk::new(edges.map(narrow), bounds))
         } else {
             Edges::Wide(Walk::new(edges, bounds))
         };
-        Self {
-            edges,
-            clip: clip.map(|clip| ClipWalk::new(clip, bounds)),
-        }
+        Self { edges, clip: clip.map(|clip| ClipWalk::new(clip, bounds)) }
     }
 }
 
@@ -240,11 +209,7 @@ fn biased(setup: &Setup, i: usize) -> HalfPlane<i64> {
     let at = |v: &[i64; 3]| v.get(i).copied().unwrap_or(0);
     let (a, b, c) = (at(&setup.a), at(&setup.b), at(&setup.c));
     let top_or_left = a > 0 || (a == 0 && b > 0);
-    HalfPlane {
-        a,
-        b,
-        c: (c - i64::from(!top_or_left)) >> setup.step,
-    }
+    HalfPlane { a, b, c: (c - i64::from(!top_or_left)) >> setup.step }
 }
 
 impl<const P: usize> Iterator for Spans<P> {
@@ -275,30 +240,17 @@ mod tests {
     use super::*;
     use std::vec::Vec;
 
-    const BOX: Rect = Rect {
-        x0: 2,
-        y0: 1,
-        x1: 14,
-        y1: 12,
-    };
+    const BOX: Rect = Rect { x0: 2, y0: 1, x1: 14, y1: 12 };
 
     /// The walk of an edge against its value at every column.
     fn follows(edge: HalfPlane<i64>) {
         let mut walk = Edge::new(edge, &BOX);
         for y in BOX.y0..BOX.y1 {
             let at = |x: i32| edge.a * i64::from(x) + edge.b * i64::from(y) + edge.c;
-            let mut span = Span {
-                y,
-                x0: BOX.x0,
-                x1: BOX.x1,
-            };
+            let mut span = Span { y, x0: BOX.x0, x1: BOX.x1 };
             walk.cut(&mut span);
             let inside: Vec<i32> = (BOX.x0..BOX.x1).filter(|&x| at(x) >= 0).collect();
-            assert_eq!(
-                (span.x0..span.x1).collect::<Vec<_>>(),
-                inside,
-                "{edge:?} row {y}"
-            );
+            assert_eq!((span.x0..span.x1).collect::<Vec<_>>(), inside, "{edge:?} row {y}");
             walk.step(&BOX);
         }
     }
@@ -316,22 +268,13 @@ mod tests {
 
     #[test]
     fn planes_skip_rows_with_the_triangle() {
-        let plane = HalfPlane {
-            a: 3i128,
-            b: -5,
-            c: 1,
-        };
-        let mut edges = ClipEdges {
-            hither: Some(plane),
-            planes: [None; 1],
-        };
+        let plane = HalfPlane { a: 3i128, b: -5, c: 1 };
+        let mut edges = ClipEdges { hither: Some(plane), planes: [None; 1] };
         edges.planes[0] = Some(HalfPlane { a: -1, b: 0, c: 9 });
         let mut walk = ClipWalk::new(&edges, BOX);
         for y in [1, 2, 6, 11] {
             let span = walk.cut(Span { y, x0: 2, x1: 14 });
-            let inside = (2..14)
-                .filter(|&x| 3 * x - 5 * y + 1 >= 0 && x <= 9)
-                .count();
+            let inside = (2..14).filter(|&x| 3 * x - 5 * y + 1 >= 0 && x <= 9).count();
             assert_eq!((span.x1 - span.x0).max(0) as usize, inside);
         }
     }

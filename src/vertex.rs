@@ -1,7 +1,7 @@
 //! Vertices: clip space in, snapped to a grid once, and what the stages after need of each.
 //!
-//! A vertex is snapped by itself, never as part of a triangle, so that every triangle that shares it
-//! sees the same numbers and a mesh stays closed (Olano & Greer 1997, section 5.2). A snapped
+//! A vertex is snapped by itself, never as part of a triangle, so that every triangle that shares
+//! it sees the same numbers and a mesh stays closed (Olano & Greer 1997, section 5.2). A snapped
 //! vertex is a homogeneous point: it may be scaled by any positive `k` without moving on the
 //! screen, and all that is linear over the triangle is scaled with it.
 
@@ -17,8 +17,8 @@ pub use viewport::{Rect, Viewport, ViewportSize};
 use crate::math::{Scale, bits, high, low, shr_round};
 use fixed::types::I16F16;
 
-/// A point in clip space: `x / w` and `y / w` in `[-1, 1]` are on the screen, y up, and `z / w` is 0 on
-/// the hither plane and 1 at far.
+/// A point in clip space: `x / w` and `y / w` in `[-1, 1]` are on the screen, y up, and `z / w` is
+/// 0 on the hither plane and 1 at far.
 ///
 /// The four share one scale, which needs no meaning of its own: `(x, y, z, w)` and `(k x, k y, k z,
 /// k w)` are the same pixel for any positive `k`. The hither distance is in the units of `w`.
@@ -36,14 +36,11 @@ impl ClipVertex {
     #[inline]
     #[must_use]
     pub const fn new(x: I16F16, y: I16F16, z: I16F16, w: I16F16) -> Self {
-        Self {
-            raw: [x.to_bits(), y.to_bits(), z.to_bits(), w.to_bits()],
-            shift: 0,
-        }
+        Self { raw: [x.to_bits(), y.to_bits(), z.to_bits(), w.to_bits()], shift: 0 }
     }
 
-    /// From raw Q16.16 coordinates of up to 63 bits. Where one does not fit 32 bits, all four are shifted
-    /// right together, rounded to nearest, so the point stays where it is.
+    /// From raw Q16.16 coordinates of up to 63 bits. Where one does not fit 32 bits, all four are
+    /// shifted right together, rounded to nearest, so the point stays where it is.
     #[inline]
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "at most 33")]
@@ -51,17 +48,11 @@ impl ClipVertex {
         let magnitude = raw.map(i64::unsigned_abs);
         let all = magnitude[0] | magnitude[1] | magnitude[2] | magnitude[3];
         if high(all) == 0 && all >> 31 == 0 {
-            return Self {
-                raw: raw.map(low),
-                shift: 0,
-            };
+            return Self { raw: raw.map(low), shift: 0 };
         }
         // One bit to spare: rounding up may carry.
         let shift = (64 - all.leading_zeros()).saturating_sub(30);
-        Self {
-            raw: raw.map(|v| low(shr_round(v, shift))),
-            shift: shift as u8,
-        }
+        Self { raw: raw.map(|v| low(shr_round(v, shift))), shift: shift as u8 }
     }
 
     /// `w` in raw Q16.16, before the shift.
@@ -76,7 +67,8 @@ pub trait Snap: Copy + Send + core::fmt::Debug + Default + 'static {
     /// The snapped position.
     type Position: Position;
 
-    /// Snaps a vertex. `hither` is the least raw `w` that may be projected: the hither distance, or 1.
+    /// Snaps a vertex. `hither` is the least raw `w` that may be projected: the hither distance, or
+    /// 1.
     fn snap(vertex: &ClipVertex, hither: i64, viewport: &Viewport) -> Self::Position;
 }
 
@@ -105,8 +97,8 @@ pub struct ScaleOf(pub(crate) Scale);
 /// A snapped point, exactly what coverage is decided from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Snapped {
-    /// `(x, y, w)` in clip space: `x / w` and `y / w` are normalized device coordinates, y up. The grid
-    /// step is 1; `2^shift` of these make one unit of the raw coordinates that went in.
+    /// `(x, y, w)` in clip space: `x / w` and `y / w` are normalized device coordinates, y up. The
+    /// grid step is 1; `2^shift` of these make one unit of the raw coordinates that went in.
     Homogeneous {
         /// Integer coordinates `[x, y, w]`.
         point: [i32; 3],
@@ -122,8 +114,8 @@ pub enum Snapped {
     },
 }
 
-/// What the rest of the pipeline keeps of a vertex: the snapped position, its depth, where it lies, its
-/// `N` varyings and its distances from `P` clip planes. This is what a vertex cache holds:
+/// What the rest of the pipeline keeps of a vertex: the snapped position, its depth, where it lies,
+/// its `N` varyings and its distances from `P` clip planes. This is what a vertex cache holds:
 /// `size_of::<Vertex<..>>()` bytes each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex<T: Snap, const N: usize = 0, const P: usize = 0> {
@@ -204,16 +196,9 @@ pub(crate) fn shift_to_fit(magnitudes: [u32; 3], limit_bits: u32) -> i32 {
 
 /// `v * 2^shift`, rounded to nearest on the right. The caller's shift keeps the result in 32 bits.
 #[inline]
-#[expect(
-    clippy::cast_sign_loss,
-    reason = "both casts are of what was tested to be positive"
-)]
+#[expect(clippy::cast_sign_loss, reason = "both casts are of what was tested to be positive")]
 pub(crate) fn shift_round(v: i32, shift: i32) -> i32 {
-    if shift >= 0 {
-        v << shift
-    } else {
-        low(shr_round(i64::from(v), -shift as u32))
-    }
+    if shift >= 0 { v << shift } else { low(shr_round(i64::from(v), -shift as u32)) }
 }
 
 #[cfg(test)]

@@ -15,9 +15,9 @@ pub type DisplayFrame<'a> = Frame<Framebuffer<'a, Rgb565Be>>;
 /// A frame for an ST7789 or ILI9341 with a 16-bit depth buffer and a hither plane: meshes.
 pub type DepthFrame<'a> = Frame<Framebuffer<'a, Rgb565Be>, DepthBuffer<'a>, Hither>;
 
-/// What triangles are drawn into: a [`Target`], and by type whether there is depth (`D`), what is kept along `w`
-/// (`W`), the tier (`T`), how varyings are corrected (`I`), and how many clip planes there are (`P`). What is not
-/// named costs nothing.
+/// What triangles are drawn into: a [`Target`], and by type whether there is depth (`D`), what is
+/// kept along `w` (`W`), the tier (`T`), how varyings are corrected (`I`), and how many clip planes
+/// there are (`P`). What is not named costs nothing.
 ///
 /// ```
 /// use hither::{ClipVertex, Flat, Frame, Framebuffer, Gray8, I16F16};
@@ -28,7 +28,8 @@ pub type DepthFrame<'a> = Frame<Framebuffer<'a, Rgb565Be>, DepthBuffer<'a>, Hith
 ///     let [x, y] = [x, y].map(I16F16::from_num);
 ///     (ClipVertex::new(x, y, I16F16::ZERO, I16F16::ONE), [])
 /// };
-/// frame.draw_triangle([corner(-1.0, -0.9), corner(1.0, -0.9), corner(0.1, 1.0)], &Flat(Gray8(b'#')));
+/// let corners = [corner(-1.0, -0.9), corner(1.0, -0.9), corner(0.1, 1.0)];
+/// frame.draw_triangle(corners, &Flat(Gray8(b'#')));
 /// let rows: Vec<_> = words.chunks(8).map(|row| core::str::from_utf8(row).unwrap()).collect();
 /// assert_eq!(rows, [
 ///     "    #   ",
@@ -52,6 +53,10 @@ pub struct Frame<C, D = NoDepth, W = NoHither, T = Exact, I = Perspective, const
     pub(super) viewport: Viewport,
     knobs: PhantomData<(T, I)>,
 }
+
+/// A frame with a depth buffer.
+type WithDepth<'a, C, W, O, T, I, const P: usize> =
+    Frame<C, DepthBuffer<'a, W, O>, Hither, T, I, P>;
 
 impl<C: Target> Frame<C> {
     /// A frame over all of a target: exact tier, no depth, no hither plane, both facings drawn.
@@ -103,17 +108,14 @@ impl<C: Target, T, I, const P: usize> Frame<C, NoDepth, Hither, T, I, P> {
     pub fn with_depth<W: DepthWord, O: Compare>(
         self,
         depth: DepthBuffer<'_, W, O>,
-    ) -> Result<Frame<C, DepthBuffer<'_, W, O>, Hither, T, I, P>, DepthSize> {
+    ) -> Result<WithDepth<'_, C, W, O, T, I, P>, DepthSize> {
         let target = self.target.size();
         let (width, height) = depth.size();
         let size = (width.unsigned_abs(), height.unsigned_abs());
         if size == target {
             Ok(self.rebuild(|_, range| (depth, range)))
         } else {
-            Err(DepthSize {
-                target,
-                depth: size,
-            })
+            Err(DepthSize { target, depth: size })
         }
     }
 }
@@ -136,7 +138,8 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
         }
     }
 
-    /// The same in another tier: [`Exact`], [`Quick<4>`](crate::Quick) or [`Quick<8>`](crate::Quick).
+    /// The same in another tier: [`Exact`], [`Quick<4>`](crate::Quick) or
+    /// [`Quick<8>`](crate::Quick).
     #[must_use]
     pub fn with_tier<T2>(self, _tier: T2) -> Frame<C, D, W, T2, I, P> {
         self.rebuild(|depth, range| (depth, range))
@@ -202,7 +205,8 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
 }
 
 impl<C: Target, D: DepthTest, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
-    /// Fills the whole target with one colour, whatever the scissor, and sets depth to the farthest.
+    /// Fills the whole target with one colour, whatever the scissor, and sets depth to the
+    /// farthest.
     pub fn clear(&mut self, color: C::Color) {
         self.target.clear(color);
         self.depth.clear();

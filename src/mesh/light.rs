@@ -15,8 +15,9 @@ pub struct NormalColor {
     pub color: [u8; 3],
 }
 
-/// Transforms, and lights each vertex: its colour times `ambient + diffuse max(0, n . l)`, at most the colour itself. The
-/// three varyings are red, green and blue in `[0, 1]`, as [`Gouraud`](crate::Gouraud) takes them.
+/// Transforms, and lights each vertex: its colour times `ambient + diffuse max(0, n . l)`, at most
+/// the colour itself. The three varyings are red, green and blue in `[0, 1]`, as
+/// [`Gouraud`](crate::Gouraud) takes them.
 ///
 /// The light is brought into model space once, so a vertex costs three products for it, in Q14: the
 /// brightness is within 2^-7 of the exact one for the stored normal.
@@ -32,9 +33,10 @@ pub struct Lit {
 }
 
 impl Lit {
-    /// A stage for a mesh that `model` (rotations, one uniform scale, a translation) brings into the world and
-    /// `transform` into clip space. `towards_light` is in world space, any length; `ambient` and `diffuse` are
-    /// brightnesses, clamped to `[0, 1]`. `None` where the light has no direction.
+    /// A stage for a mesh that `model` (rotations, one uniform scale, a translation) brings into
+    /// the world and `transform` into clip space. `towards_light` is in world space, any length;
+    /// `ambient` and `diffuse` are brightnesses, clamped to `[0, 1]`. `None` where the light has no
+    /// direction.
     #[must_use]
     pub fn new(
         transform: Mat4,
@@ -43,17 +45,10 @@ impl Lit {
         ambient: I16F16,
         diffuse: I16F16,
     ) -> Option<Self> {
-        let light = model
-            .unturn(towards_light)?
-            .map(|v| low(shr_round(v / 127, 9)));
+        let light = model.unturn(towards_light)?.map(|v| low(shr_round(v / 127, 9)));
         let brightness = |v: I16F16| v.to_bits().clamp(0, 1 << 16);
         let (ambient, diffuse) = (brightness(ambient), brightness(diffuse));
-        Some(Self {
-            transform,
-            light,
-            ambient,
-            diffuse,
-        })
+        Some(Self { transform, light, ambient, diffuse })
     }
 
     /// Brightness of a normal, Q16 in `[0, 1]`.
@@ -95,14 +90,8 @@ mod tests {
         let model = Mat4::rotation_y(Angle::from_degrees(fixed(30.0)).sin_cos());
         let light = [0.3, 0.8, 0.5];
         let (ambient, diffuse) = (0.2, 0.7);
-        let lit = Lit::new(
-            model,
-            &model,
-            light.map(fixed),
-            fixed(ambient),
-            fixed(diffuse),
-        )
-        .unwrap();
+        let lit =
+            Lit::new(model, &model, light.map(fixed), fixed(ambient), fixed(diffuse)).unwrap();
         let norm = light.iter().map(|v| v * v).sum::<f64>().sqrt();
         for i in 0..2000 {
             let (a, b) = (f64::from(i) * 0.37, f64::from(i) * 0.11);
@@ -114,22 +103,14 @@ mod tests {
             let facing: f64 = turned.iter().zip(light).map(|(n, l)| n * l / norm).sum();
             let exact = (ambient + diffuse * facing.max(0.0)).min(1.0);
             let got = f64::from(lit.brightness(stored)) / 65536.0;
-            assert!(
-                (got - exact).abs() < 1.0 / 128.0,
-                "{stored:?}: {got}, not {exact}"
-            );
+            assert!((got - exact).abs() < 1.0 / 128.0, "{stored:?}: {got}, not {exact}");
         }
     }
 
     #[test]
     fn a_light_needs_a_direction() {
-        let dark = Lit::new(
-            Mat4::IDENTITY,
-            &Mat4::IDENTITY,
-            [I16F16::ZERO; 3],
-            I16F16::ONE,
-            I16F16::ONE,
-        );
+        let dark =
+            Lit::new(Mat4::IDENTITY, &Mat4::IDENTITY, [I16F16::ZERO; 3], I16F16::ONE, I16F16::ONE);
         assert!(dark.is_none());
     }
 }

@@ -45,11 +45,7 @@ impl Tier for Exact {
         if determinant == 0 {
             return None;
         }
-        let facing = if determinant > 0 {
-            Facing::Front
-        } else {
-            Facing::Back
-        };
+        let facing = if determinant > 0 { Facing::Front } else { Facing::Back };
         let (w, h) = (i64::from(viewport.width), i64::from(viewport.height));
         let sign = determinant.signum();
         // E = W H e . P in half pixels: a H (2 X + 1 - W) + b W (H - 1 - 2 Y) + c W H.
@@ -77,19 +73,10 @@ impl Tier for Exact {
 const _: () = {
     let minor = 2i128 << (2 * Exact::COORDINATE_BITS);
     let side = Viewport::MAX_SIDE as i128;
-    assert!(
-        3 * minor * side * side < 1 << 61,
-        "an edge function takes 61 bits"
-    );
+    assert!(3 * minor * side * side < 1 << 61, "an edge function takes 61 bits");
     let outside = 3 * minor * side * side + 4 * minor * side;
-    assert!(
-        outside < i64::MAX as i128,
-        "an edge function one pixel outside overflows i64"
-    );
-    assert!(
-        3 * (minor << Exact::COORDINATE_BITS) <= i64::MAX as i128,
-        "a partial determinant"
-    );
+    assert!(outside < i64::MAX as i128, "an edge function one pixel outside overflows i64");
+    assert!(3 * (minor << Exact::COORDINATE_BITS) <= i64::MAX as i128, "a partial determinant");
 };
 
 #[cfg(test)]
@@ -100,22 +87,15 @@ mod tests {
     fn set_up(v: [[i32; 3]; 3], width: u32, height: u32) -> Option<Setup> {
         let viewport = Viewport::new(width, height).unwrap();
         let v = v.map(|[x, y, w]| {
-            Exact::snap(
-                &ClipVertex {
-                    raw: [x, y, 0, w],
-                    shift: 0,
-                },
-                1,
-                &viewport,
-            )
+            Exact::snap(&ClipVertex { raw: [x, y, 0, w], shift: 0 }, 1, &viewport)
         });
         Exact::set_up([&v[0], &v[1], &v[2]], &viewport)
     }
 
     #[test]
     fn edges_sum_to_the_determinant() {
-        // sum(E_i w_i) = W H |det| at every pixel. The snap scales each of these vertices by 2^19, so every
-        // w is 2^20; their own determinant is 8.
+        // sum(E_i w_i) = W H |det| at every pixel. The snap scales each of these vertices by 2^19,
+        // so every w is 2^20; their own determinant is 8.
         let v = [[-1, -1, 2], [1, -1, 2], [0, 1, 2]];
         let setup = set_up(v, 7, 5).unwrap();
         assert_eq!(setup.facing, Facing::Front);
@@ -129,10 +109,7 @@ mod tests {
     fn facing_is_the_sign_of_the_determinant() {
         let ccw = [[-1, -1, 2], [1, -1, 2], [0, 1, 2]];
         assert_eq!(set_up(ccw, 8, 8).unwrap().facing, Facing::Front);
-        assert_eq!(
-            set_up([ccw[1], ccw[0], ccw[2]], 8, 8).unwrap().facing,
-            Facing::Back
-        );
+        assert_eq!(set_up([ccw[1], ccw[0], ccw[2]], 8, 8).unwrap().facing, Facing::Back);
         assert!(set_up([ccw[0], ccw[0], ccw[2]], 8, 8).is_none());
         assert!(set_up([[0, 0, 0], ccw[0], ccw[2]], 8, 8).is_none());
     }

@@ -9,13 +9,13 @@
 //! | edge at a pixel | 2^(22.6 + 2 S), 2^(22.6 + S) after `>> S` | 2^51 in half pixels |
 //! | determinant | 2^(22 + 2 S) | below 2^63 |
 //!
-//! Three projected: `E >> S`, floored, has the sign of `E` at every pixel, since a pixel's step is a multiple
-//! of `2^S`; with 8 bits it stays below 2^30.7, so the walk is in `i32` in both tiers.
+//! Three projected: `E >> S`, floored, has the sign of `E` at every pixel, since a pixel's step is
+//! a multiple of `2^S`; with 8 bits it stays below 2^30.7, so the walk is in `i32` in both tiers.
 //!
-//! Mixed: the matrix in pixel space is the clip-space one times a map of determinant `-2 W H`; three
-//! homogeneous rows of at most `2^14 - 1` have a determinant of at most `4 (2^14 - 1)^3` (a 3 x 3 matrix of
-//! entries in [-1, 1] has one of at most 4), so in pixel space it is below `2^19 2^44 = 2^63`. Its
-//! partial sums may pass `i64`, so they wrap; the total does not.
+//! Mixed: the matrix in pixel space is the clip-space one times a map of determinant `-2 W H`;
+//! three homogeneous rows of at most `2^14 - 1` have a determinant of at most `4 (2^14 - 1)^3` (a 3
+//! x 3 matrix of entries in [-1, 1] has one of at most 4), so in pixel space it is below
+//! `2^19 2^44 = 2^63`. Its partial sums may pass `i64`, so they wrap; the total does not.
 
 use super::{Extent, Facing, Setup, Tier, bounds};
 use crate::math::Scale;
@@ -28,35 +28,21 @@ impl<const BITS: u32> Tier for Quick<BITS> {
     fn set_up(vertices: [&QuickPosition<BITS>; 3], viewport: &Viewport) -> Option<Setup> {
         let points = vertices.map(|v| v.in_pixels(viewport));
         let narrow = vertices.iter().all(|v| v.projected);
-        let lines = if narrow {
-            projected::<BITS>(&points)
-        } else {
-            mixed(&points)
-        };
+        let lines = if narrow { projected::<BITS>(&points) } else { mixed(&points) };
         if lines.determinant == 0 {
             return None;
         }
         // y is down: a front face is clockwise here.
-        let facing = if lines.determinant < 0 {
-            Facing::Front
-        } else {
-            Facing::Back
-        };
+        let facing = if lines.determinant < 0 { Facing::Front } else { Facing::Back };
         let sign = lines.determinant.signum();
         let column = |i: usize| lines.edges.map(|e| sign * e.get(i).copied().unwrap_or(0));
         let magnitude = Scale::of(lines.determinant.unsigned_abs());
         let extents = [0, 1, 2].map(|i: usize| {
-            let zero = Extent {
-                point: [0; 3],
-                first: [0; 2],
-            };
+            let zero = Extent { point: [0; 3], first: [0; 2] };
             points
                 .get(i)
                 .zip(vertices.get(i))
-                .map_or(zero, |(&point, v)| Extent {
-                    point,
-                    first: v.first_pixel(viewport),
-                })
+                .map_or(zero, |(&point, v)| Extent { point, first: v.first_pixel(viewport) })
         });
         Some(Setup {
             a: column(0),
@@ -65,9 +51,7 @@ impl<const BITS: u32> Tier for Quick<BITS> {
             step: lines.step,
             narrow,
             facing,
-            inverse: magnitude
-                .reciprocal()
-                .times(Scale::power_of_two(lines.weight_shift)),
+            inverse: magnitude.reciprocal().times(Scale::power_of_two(lines.weight_shift)),
             bounds: bounds(&extents, viewport),
         })
     }
@@ -114,31 +98,18 @@ fn mixed([p, q, r]: &[[i64; 3]; 3]) -> Lines {
     let lines = [edge(q, r), edge(r, p), edge(p, q)];
     let [a, b, _, c] = lines[0];
     // Partial sums may wrap; the total is below 2^63, as the module says.
-    let determinant = p[0]
-        .wrapping_mul(a)
-        .wrapping_add(p[1].wrapping_mul(b))
-        .wrapping_add(p[2].wrapping_mul(c));
-    Lines {
-        edges: lines.map(|[a, b, c, _]| [a, b, c]),
-        step: 1,
-        determinant,
-        weight_shift: 0,
-    }
+    let determinant =
+        p[0].wrapping_mul(a).wrapping_add(p[1].wrapping_mul(b)).wrapping_add(p[2].wrapping_mul(c));
+    Lines { edges: lines.map(|[a, b, c, _]| [a, b, c]), step: 1, determinant, weight_shift: 0 }
 }
 
 const _: () = {
-    let band = 2 * GUARD_BAND << 8;
+    let band = (2 * GUARD_BAND) << 8;
     let reach = (GUARD_BAND + Viewport::MAX_SIDE as i64 + 1) << 8;
-    assert!(
-        2 * band * reach >> 8 <= i32::MAX as i64,
-        "projected edge functions overflow i32"
-    );
+    assert!((2 * band * reach) >> 8 <= i32::MAX as i64, "projected edge functions overflow i32");
     let side = Viewport::MAX_SIDE as i128;
     let entry = (1i128 << HOMOGENEOUS_BITS) - 1;
-    assert!(
-        2 * side * side * 4 * entry * entry * entry < 1 << 63,
-        "a determinant overflows i64"
-    );
+    assert!(2 * side * side * 4 * entry * entry * entry < 1 << 63, "a determinant overflows i64");
 };
 
 #[cfg(test)]
@@ -147,25 +118,13 @@ mod tests {
     use crate::vertex::{ClipVertex, Snap};
 
     fn snap<const S: u32>(v: [[i32; 3]; 3], viewport: &Viewport) -> [QuickPosition<S>; 3] {
-        v.map(|[x, y, w]| {
-            Quick::snap(
-                &ClipVertex {
-                    raw: [x, y, 0, w],
-                    shift: 0,
-                },
-                1,
-                viewport,
-            )
-        })
+        v.map(|[x, y, w]| Quick::snap(&ClipVertex { raw: [x, y, 0, w], shift: 0 }, 1, viewport))
     }
 
     #[test]
     fn three_projected_and_mixed_setups_have_the_same_edges() {
         let viewport = Viewport::new(240, 320).unwrap();
-        let v = snap::<4>(
-            [[-900, 310, 1000], [2000, 1500, 2700], [-77, -3000, 4000]],
-            &viewport,
-        );
+        let v = snap::<4>([[-900, 310, 1000], [2000, 1500, 2700], [-77, -3000, 4000]], &viewport);
         let points = [0, 1, 2].map(|i: usize| v[i].in_pixels(&viewport));
         let (narrow, wide) = (projected::<4>(&points), mixed(&points));
         for (n, w) in narrow.edges.iter().zip(&wide.edges) {
@@ -192,19 +151,10 @@ mod tests {
                     + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
             };
             let points = v.map(|[x, y, w]| {
-                QuickPosition::<8> {
-                    x,
-                    y,
-                    w,
-                    ..Default::default()
-                }
-                .in_pixels(&viewport)
+                QuickPosition::<8> { x, y, w, ..Default::default() }.in_pixels(&viewport)
             });
             let lines = mixed(&points);
-            assert_eq!(
-                i128::from(lines.determinant),
-                -2 * 512 * 512 * determinant(v)
-            );
+            assert_eq!(i128::from(lines.determinant), -2 * 512 * 512 * determinant(v));
             for (x, y) in [(0, 0), (512, 512), (0, 512)] {
                 for e in lines.edges {
                     assert!((2 * (e[0] * x + e[1] * y) + e[2]).abs() < 1 << 52);

@@ -28,10 +28,7 @@ impl SinCos {
 impl Angle {
     /// From turns, of which only the fraction counts; negative ones turn back.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "whole turns are dropped by intent"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "whole turns are dropped by intent")]
     #[expect(clippy::cast_sign_loss, reason = "wraps by intent")]
     pub const fn from_turns(turns: I16F16) -> Self {
         Self(turns.to_bits() as u16)
@@ -39,10 +36,7 @@ impl Angle {
 
     /// From degrees, to the nearest step.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "whole turns are dropped by intent"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "whole turns are dropped by intent")]
     #[expect(clippy::cast_sign_loss, reason = "wraps by intent")]
     pub const fn from_degrees(degrees: I16F16) -> Self {
         Self((degrees.to_bits() as i64 + 180).div_euclid(360) as u16)
@@ -51,31 +45,21 @@ impl Angle {
     /// Sine and cosine, within one step of 2^-16.
     #[must_use]
     pub fn sin_cos(self) -> SinCos {
-        SinCos {
-            sin: sine(self.0),
-            cos: sine(self.0.wrapping_add(1 << 14)),
-        }
+        SinCos { sin: sine(self.0), cos: sine(self.0.wrapping_add(1 << 14)) }
     }
 }
 
-/// The sine of `angle / 2^16` turns: the Taylor polynomial of `sin(pi/2 x)` to x^9 on a quarter turn, in Q30. What
-/// is left out is below 2^-18; every step truncates below 2^-28.
+/// The sine of `angle / 2^16` turns: the Taylor polynomial of `sin(pi/2 x)` to x^9 on a quarter
+/// turn, in Q30. What is left out is below 2^-18; every step truncates below 2^-28.
 fn sine(angle: u16) -> I16F16 {
     /// Coefficients of x, x^3, .. x^9: `(pi/2)^n / n!`, alternating in sign, Q30.
     const TERMS: [i64; 5] = [1_686_629_713, -693_598_668, 85_569_305, -5_026_995, 172_272];
     let quarter = angle >> 14;
     let within = i64::from(angle & 0x3fff);
     // x in Q30, mirrored in the second and fourth quarter.
-    let x = if quarter & 1 == 0 {
-        within
-    } else {
-        (1 << 14) - within
-    } << 16;
+    let x = if quarter & 1 == 0 { within } else { (1 << 14) - within } << 16;
     let square = (x * x) >> 30;
-    let sum = TERMS
-        .iter()
-        .rev()
-        .fold(0, |sum, term| ((sum * square) >> 30) + term);
+    let sum = TERMS.iter().rev().fold(0, |sum, term| ((sum * square) >> 30) + term);
     let sine = shr_round((sum * x) >> 30, 14);
     I16F16::from_bits(low(if quarter < 2 { sine } else { -sine }))
 }

@@ -1,12 +1,9 @@
 //! Matrices from `f32`, for scenes that are built with floating point; trigonometry is micromath's.
-#![expect(
-    clippy::float_arithmetic,
-    reason = "this file is the edge where f32 comes in"
-)]
+#![expect(clippy::float_arithmetic, reason = "this file is the edge where f32 comes in")]
 
 use super::{Mat4, MatrixError, SinCos};
 use fixed::types::I16F16;
-use micromath::F32Ext as _;
+use micromath::F32Ext;
 
 /// A floating-point number cannot be taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,10 +47,7 @@ impl SinCos {
     /// [`FloatError::Value`] for NaN, infinities and angles beyond ±32768.
     pub fn from_radians(angle: f32) -> Result<Self, FloatError> {
         fixed(angle)?;
-        Ok(Self {
-            sin: fixed(angle.sin())?,
-            cos: fixed(angle.cos())?,
-        })
+        Ok(Self { sin: fixed(F32Ext::sin(angle))?, cos: fixed(F32Ext::cos(angle))? })
     }
 }
 
@@ -83,13 +77,8 @@ impl Mat4 {
         far: f32,
     ) -> Result<Self, FloatError> {
         let half = fixed(fov_y)?.to_num::<f32>() / 2.0;
-        let focal = fixed(half.cos() / half.sin())?;
-        Ok(Self::perspective(
-            focal,
-            fixed(aspect)?,
-            fixed(near)?,
-            fixed(far)?,
-        )?)
+        let focal = fixed(F32Ext::cos(half) / F32Ext::sin(half))?;
+        Ok(Self::perspective(focal, fixed(aspect)?, fixed(near)?, fixed(far)?)?)
     }
 }
 
@@ -99,13 +88,7 @@ mod tests {
 
     #[test]
     fn only_numbers_are_taken() {
-        for bad in [
-            f32::NAN,
-            f32::INFINITY,
-            f32::NEG_INFINITY,
-            32768.0,
-            -40000.0,
-        ] {
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 32768.0, -40000.0] {
             assert!(SinCos::from_radians(bad).is_err());
             assert!(Mat4::perspective_f32(1.0, bad, 1.0, 2.0).is_err());
             assert!(Mat4::perspective_f32(bad, 1.0, 1.0, 2.0).is_err());

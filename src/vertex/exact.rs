@@ -1,4 +1,5 @@
-//! The exact tier's snap: homogeneous, on an integer grid of 2^20, each vertex scaled by a power of two.
+//! The exact tier's snap: homogeneous, on an integer grid of 2^20, each vertex scaled by a power of
+//! two.
 //!
 //! Coordinates `x`, `y`, `w` are integers from `-2^20` to `2^20` inclusive. A vertex whose largest
 //! coordinate is smaller is scaled up, exactly; one beyond is scaled down and rounded to nearest,
@@ -25,8 +26,9 @@ pub struct ExactPosition {
     pub(crate) x: i32,
     pub(crate) y: i32,
     pub(crate) w: i32,
-    /// The first column and row whose centre is not left of or above the vertex (of its mirror image
-    /// through the eye where `w < 0`), clamped to the viewport's size; meaningless where `w = 0`.
+    /// The first column and row whose centre is not left of or above the vertex (of its mirror
+    /// image through the eye where `w < 0`), clamped to the viewport's size; meaningless where
+    /// `w = 0`.
     pub(crate) column: u16,
     pub(crate) row: u16,
     /// The position is `2^shift` times the true vertex: -44 to 20.
@@ -37,10 +39,7 @@ impl Snap for Exact {
     type Position = ExactPosition;
 
     #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the shift is -11 - 34 to 20"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "the shift is -11 - 34 to 20")]
     fn snap(vertex: &ClipVertex, _hither: i64, viewport: &Viewport) -> ExactPosition {
         let [x, y, _, w] = vertex.raw;
         let largest = [x, y, w].map(i32::unsigned_abs);
@@ -60,32 +59,30 @@ impl Snap for Exact {
     }
 }
 
-/// The first pixel whose centre is at or beyond `n / d`, in `0 ..= limit`: `ceil(n / d - 1/2)` clamped.
-/// 0 where `d` is 0.
+/// The first pixel whose centre is at or beyond `n / d`, in `0 ..= limit`: `ceil(n / d - 1/2)`
+/// clamped. 0 where `d` is 0.
 ///
-/// `|n| <= 2^30`, `0 <= d <= 2^21`, `limit <= 512`. No division: the quotient in range is at most 512, and
-/// `2^63 / d` from the reciprocal is off by one part in 2^29 at most, so a floor of the product is off
-/// by at most one, and the ceiling is at most two above; exact comparisons mend that.
+/// `|n| <= 2^30`, `0 <= d <= 2^21`, `limit <= 512`. No division: the quotient in range is at most
+/// 512, and `2^63 / d` from the reciprocal is off by one part in 2^29 at most, so a floor of the
+/// product is off by at most one, and the ceiling is at most two above; exact comparisons mend
+/// that.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "0 to 512")]
-#[expect(
-    clippy::cast_sign_loss,
-    reason = "both are positive where they are cast"
-)]
+#[expect(clippy::cast_sign_loss, reason = "0 to 512")]
 pub(crate) fn first_centre(n: i32, d: i32, limit: i32) -> u16 {
     // The first X with (2 X + 1) d >= 2 n.
     let doubled = 2 * i64::from(n) - i64::from(d);
     if d <= 0 || doubled <= 0 {
         return 0;
     }
+    let zeros = d.leading_zeros();
+    let inverse = i64::from(reciprocal(d.unsigned_abs() << zeros));
     let d = i64::from(d);
     if doubled > 2 * d * i64::from(limit - 1) {
         return limit as u16;
     }
-    let zeros = (d as u32).leading_zeros();
-    let inverse = u64::from(reciprocal((d as u32) << zeros));
-    // doubled / (2 d): at most 2^31 times at most 2^32, shifted down by 63 - zeros + 1.
-    let mut first = ((doubled as u64 * inverse) >> (64 - zeros)) as i64;
+    // doubled / (2 d): below 2^31 times below 2^32, shifted down by 63 - zeros + 1.
+    let mut first = (doubled * inverse) >> (64 - zeros);
     if first * 2 * d >= doubled + 2 * d {
         first -= 1;
     }
@@ -96,21 +93,11 @@ pub(crate) fn first_centre(n: i32, d: i32, limit: i32) -> u16 {
 }
 
 impl Position for ExactPosition {
-    const EMPTY: Self = Self {
-        x: 0,
-        y: 0,
-        w: 0,
-        column: 0,
-        row: 0,
-        shift: 0,
-    };
+    const EMPTY: Self = Self { x: 0, y: 0, w: 0, column: 0, row: 0, shift: 0 };
 
     #[inline]
     fn homogeneous(&self) -> Snapped {
-        Snapped::Homogeneous {
-            point: [self.x, self.y, self.w],
-            shift: i32::from(self.shift),
-        }
+        Snapped::Homogeneous { point: [self.x, self.y, self.w], shift: i32::from(self.shift) }
     }
 
     #[inline]
@@ -124,12 +111,9 @@ impl Position for ExactPosition {
     }
 }
 
+const _: () = assert!(size_of::<ExactPosition>() == 20, "the size its documentation states");
 const _: () = assert!(
-    size_of::<ExactPosition>() == 20,
-    "the size its documentation states"
-);
-const _: () = assert!(
-    2 * (Viewport::MAX_SIDE as i64) << Exact::COORDINATE_BITS <= 1 << 30,
+    (2 * (Viewport::MAX_SIDE as i64)) << Exact::COORDINATE_BITS <= 1 << 30,
     "W (x + w) fits 31 bits, as first_centre assumes"
 );
 const _: () = assert!(bits(Exact::COORDINATE_BITS) == 20, "grid of 2^20");
@@ -145,18 +129,10 @@ mod tests {
 
     #[test]
     fn what_is_on_the_grid_is_only_scaled() {
-        for raw in [
-            [1 << 20, 1, 5, -(1 << 20)],
-            [3, -7, 0, 11],
-            [0, 0, 0, 1],
-            [-1, 0, 0, 0],
-        ] {
+        for raw in [[1 << 20, 1, 5, -(1 << 20)], [3, -7, 0, 11], [0, 0, 0, 1], [-1, 0, 0, 0]] {
             let p = snap(raw);
             assert!(p.shift >= 0);
-            assert_eq!(
-                [p.x, p.y, p.w],
-                [raw[0], raw[1], raw[3]].map(|v| v << p.shift)
-            );
+            assert_eq!([p.x, p.y, p.w], [raw[0], raw[1], raw[3]].map(|v| v << p.shift));
         }
     }
 
@@ -181,11 +157,7 @@ mod tests {
             let exact = (2 * i64::from(n) - i64::from(d) + 2 * i64::from(d) - 1)
                 .div_euclid(2 * i64::from(d))
                 .clamp(0, i64::from(limit));
-            assert_eq!(
-                i64::from(first_centre(n, d, limit)),
-                exact,
-                "{n} / {d} up to {limit}"
-            );
+            assert_eq!(i64::from(first_centre(n, d, limit)), exact, "{n} / {d} up to {limit}");
         };
         for d in (1..2000).chain((0..2000).map(|i| (1 << 21) - i)) {
             for x in [0, 1, 2, 17, 239, 240, 511, 512] {

@@ -1,8 +1,8 @@
 //! The quick tiers' snap: projected to 4 or 8 subpixel bits, homogeneous where it cannot be.
 //!
-//! A vertex with `w` at or beyond the hither distance (`w > 0` where there is none) and within the guard
-//! band of 1024 px around the viewport's corner is projected: one reciprocal, rounded to the nearest
-//! subpixel. Any other is kept homogeneous, 14 bits and a sign, in pixel space
+//! A vertex with `w` at or beyond the hither distance (`w > 0` where there is none) and within the
+//! guard band of 1024 px around the viewport's corner is projected: one reciprocal, rounded to the
+//! nearest subpixel. Any other is kept homogeneous, 14 bits and a sign, in pixel space
 //! `(W (x + w), H (w - y), 2 w)`. The vertex decides, from its unsnapped values, never the
 //! triangle, so the edge that two triangles share is the same edge to the bit.
 
@@ -28,8 +28,8 @@ pub struct QuickPosition<const BITS: u32> {
     pub(crate) y: i32,
     /// Projected: `2^BITS`. Otherwise clip space, below 2^14 in magnitude.
     pub(crate) w: i32,
-    /// The position is `mantissa * 2^exponent` times the true vertex (in clip space or, projected, in
-    /// pixel space divided by 2).
+    /// The position is `mantissa * 2^exponent` times the true vertex (in clip space or, projected,
+    /// in pixel space divided by 2).
     pub(crate) mantissa: u32,
     pub(crate) exponent: i8,
     pub(crate) projected: bool,
@@ -39,10 +39,7 @@ impl<const BITS: u32> Quick<BITS> {
     /// One pixel in subpixels.
     pub(crate) const PIXEL: i32 = 1 << BITS;
 
-    const CHECK: () = assert!(
-        BITS == 4 || BITS == 8,
-        "quick tiers have 4 or 8 subpixel bits"
-    );
+    const CHECK: () = assert!(BITS == 4 || BITS == 8, "quick tiers have 4 or 8 subpixel bits");
 }
 
 impl<const BITS: u32> Snap for Quick<BITS> {
@@ -85,31 +82,24 @@ fn project<const BITS: u32>(v: &ClipVertex, across: i64, down: i64) -> QuickPosi
     }
 }
 
-/// `n 2^BITS / (2 d)`, rounded to nearest (halves up), for `d` in `[2^31, 2^32)` and `|n| <= 2048 d`, given
-/// `2^63 / d` to one part in 2^29.
+/// `n 2^BITS / (2 d)`, rounded to nearest (halves up), for `d` in `[2^31, 2^32)` and
+/// `|n| <= 2048 d`, given `2^63 / d` to one part in 2^29.
 ///
-/// `n` fits 44 bits; cut to 31 bits it is `2^-19` of a pixel off, the reciprocal at most 2^-11 of a subpixel:
-/// the estimate is off by one at most, and the exact remainder (52 bits) says so.
+/// `n` fits 44 bits; cut to 31 bits it is `2^-19` of a pixel off, the reciprocal at most 2^-11 of a
+/// subpixel: the estimate is off by one at most, and the exact remainder (52 bits) says so.
 #[inline]
 fn quotient<const BITS: u32>(n: i64, d: u32, inverse: u32) -> i32 {
     let estimate = ((n >> 12) * i64::from(inverse >> 1)) >> (63 - 12 - BITS);
     let two_d = 2 * i64::from(d);
     // n 2^BITS / two_d + 1/2 = (n 2^BITS + d) / two_d, floored.
     let remainder = (n << BITS) + i64::from(d) - estimate * two_d;
-    let correction = if remainder < 0 {
-        -1
-    } else {
-        i64::from(remainder >= two_d)
-    };
+    let correction = if remainder < 0 { -1 } else { i64::from(remainder >= two_d) };
     low(estimate + correction)
 }
 
 /// Keeps a vertex homogeneous, in clip space: each coordinate within half a grid step of the scaled
 /// vertex, below `2^14` in magnitude.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the exponent is -31 - 18 - 34 to -17"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "the exponent is -31 - 18 - 34 to -17")]
 fn homogeneous<const BITS: u32>(v: &ClipVertex) -> QuickPosition<BITS> {
     let [x, y, _, w] = v.raw;
     let largest = [x, y, w].map(i32::unsigned_abs);
@@ -132,46 +122,32 @@ fn homogeneous<const BITS: u32>(v: &ClipVertex) -> QuickPosition<BITS> {
 
 /// A magnitude after [`shift_round`], rounded up on a half.
 #[inline]
-#[expect(
-    clippy::cast_sign_loss,
-    reason = "a shift that was tested for its sign"
-)]
+#[expect(clippy::cast_sign_loss, reason = "a shift that was tested for its sign")]
 fn rounded(v: u32, shift: i32) -> u32 {
-    if shift >= 0 {
-        v << shift
-    } else {
-        high((u64::from(v) << 32 >> -shift as u32) + (1 << 31))
-    }
+    if shift >= 0 { v << shift } else { high((u64::from(v) << 32 >> -shift as u32) + (1 << 31)) }
 }
 
 impl<const BITS: u32> QuickPosition<BITS> {
-    /// `(x, y, w)` in pixel space, any scale: 25 bits and a sign for homogeneous ones, `BITS + 10` for
-    /// projected ones.
+    /// `(x, y, w)` in pixel space, any scale: 25 bits and a sign for homogeneous ones, `BITS + 10`
+    /// for projected ones.
     #[inline]
     pub(crate) fn in_pixels(&self, viewport: &Viewport) -> [i64; 3] {
         let [x, y, w] = [self.x, self.y, self.w].map(i64::from);
         if self.projected {
             [x, y, w]
         } else {
-            [
-                i64::from(viewport.width) * (x + w),
-                i64::from(viewport.height) * (w - y),
-                2 * w,
-            ]
+            [i64::from(viewport.width) * (x + w), i64::from(viewport.height) * (w - y), 2 * w]
         }
     }
 
-    /// First column and row whose centre is not left of or above the vertex (of its mirror image where
-    /// `w < 0`), clamped to the viewport's size; meaningless where `w = 0`.
+    /// First column and row whose centre is not left of or above the vertex (of its mirror image
+    /// where `w < 0`), clamped to the viewport's size; meaningless where `w = 0`.
     #[inline]
     pub(crate) fn first_pixel(&self, viewport: &Viewport) -> [i32; 2] {
         let [width, height] = [viewport.width, viewport.height];
         if self.projected {
             let first = |v: i32| (v + (Quick::<BITS>::PIXEL / 2 - 1)) >> BITS;
-            [
-                first(self.x).clamp(0, width),
-                first(self.y).clamp(0, height),
-            ]
+            [first(self.x).clamp(0, width), first(self.y).clamp(0, height)]
         } else {
             let [x, y, w] = self.in_pixels(viewport).map(low);
             let sign = w.signum();
@@ -184,37 +160,21 @@ impl<const BITS: u32> QuickPosition<BITS> {
 }
 
 impl<const BITS: u32> Position for QuickPosition<BITS> {
-    const EMPTY: Self = Self {
-        x: 0,
-        y: 0,
-        w: 0,
-        mantissa: 1 << 31,
-        exponent: 0,
-        projected: false,
-    };
+    const EMPTY: Self = Self { x: 0, y: 0, w: 0, mantissa: 1 << 31, exponent: 0, projected: false };
 
     #[inline]
     fn homogeneous(&self) -> Snapped {
         if self.projected {
-            Snapped::Projected {
-                point: [self.x, self.y],
-                subpixel_bits: BITS,
-            }
+            Snapped::Projected { point: [self.x, self.y], subpixel_bits: BITS }
         } else {
             let shift = i32::from(self.exponent) + 31;
-            Snapped::Homogeneous {
-                point: [self.x, self.y, self.w],
-                shift,
-            }
+            Snapped::Homogeneous { point: [self.x, self.y, self.w], shift }
         }
     }
 
     #[inline]
     fn scale(&self) -> ScaleOf {
-        ScaleOf(Scale {
-            mantissa: self.mantissa,
-            exponent: i32::from(self.exponent),
-        })
+        ScaleOf(Scale { mantissa: self.mantissa, exponent: i32::from(self.exponent) })
     }
 
     #[inline]
@@ -223,10 +183,7 @@ impl<const BITS: u32> Position for QuickPosition<BITS> {
     }
 }
 
-const _: () = assert!(
-    size_of::<QuickPosition<4>>() == 20,
-    "the size its documentation states"
-);
+const _: () = assert!(size_of::<QuickPosition<4>>() == 20, "the size its documentation states");
 
 #[cfg(test)]
 mod tests {
@@ -243,9 +200,7 @@ mod tests {
         let mut projected = 0;
         for i in 0..200_000u32 {
             let mut draw = || {
-                seed = seed
-                    .wrapping_mul(6_364_136_223_846_793_005)
-                    .wrapping_add(1_442_695);
+                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
                 (seed >> 33) as i64
             };
             let w = (draw() >> (i % 31)).max(1);
@@ -261,10 +216,7 @@ mod tests {
                 projected += 1;
                 for (n, s) in exact.into_iter().zip([p.x, p.y]) {
                     let twice = (i128::from(n) << BITS) - i128::from(s) * 2 * i128::from(w);
-                    assert!(
-                        -i128::from(w) <= twice && twice <= i128::from(w),
-                        "{n} / {w}: {s}"
-                    );
+                    assert!(-i128::from(w) <= twice && twice <= i128::from(w), "{n} / {w}: {s}");
                 }
             }
         }
@@ -294,18 +246,7 @@ mod tests {
 
     #[test]
     fn homogeneous_vertices_stay_below_the_limit() {
-        for v in [
-            1,
-            2,
-            16_383,
-            16_384,
-            16_385,
-            32_767,
-            32_768,
-            i32::MAX,
-            i32::MIN,
-            -16_384,
-        ] {
+        for v in [1, 2, 16_383, 16_384, 16_385, 32_767, 32_768, i32::MAX, i32::MIN, -16_384] {
             let p = snap::<4>([v, v / 2, 0, -1], 1);
             assert!(p.x.abs() < 1 << 14 && p.x.abs() >= 1 << 12, "{v}: {p:?}");
             let shift = i32::from(p.exponent) + 31;
@@ -319,18 +260,9 @@ mod tests {
     fn first_pixels_follow_the_centres() {
         let vp = Viewport::new(240, 320).unwrap();
         let at = |x: i32| {
-            let p = QuickPosition::<4> {
-                x,
-                y: x,
-                w: 16,
-                projected: true,
-                ..Default::default()
-            };
+            let p = QuickPosition::<4> { x, y: x, w: 16, projected: true, ..Default::default() };
             p.first_pixel(&vp)[0]
         };
-        assert_eq!(
-            [at(-99), at(8), at(9), at(24), at(25), at(99_999)],
-            [0, 0, 1, 1, 2, 240]
-        );
+        assert_eq!([at(-99), at(8), at(9), at(24), at(25), at(99_999)], [0, 0, 1, 1, 2, 240]);
     }
 }

@@ -39,10 +39,10 @@ impl Rect {
 
 /// The picture's size in pixels, its place in the buffer, and its scissor.
 ///
-/// The size is what `[-1, 1]` is stretched over: pixel `(X, Y)` is sampled at its centre, `x_ndc = (2 X +
-/// 1) / width - 1` and `y_ndc = 1 - (2 Y + 1) / height`. The origin is where pixel (0, 0) lies in the buffer,
-/// possibly outside of it: a band that starts at row 60 of a frame is the frame's viewport with origin
-/// (0, -60), and is the same picture to the bit.
+/// The size is what `[-1, 1]` is stretched over: pixel `(X, Y)` is sampled at its centre,
+/// `x_ndc = (2 X + 1) / width - 1` and `y_ndc = 1 - (2 Y + 1) / height`. The origin is where pixel
+/// (0, 0) lies in the buffer, possibly outside of it: a band that starts at row 60 of a frame is
+/// the frame's viewport with origin (0, -60), and is the same picture to the bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Viewport {
     pub(crate) width: i32,
@@ -63,10 +63,7 @@ impl Viewport {
     ///
     /// [`ViewportSize`] where a side is 0 or over [`Viewport::MAX_SIDE`].
     #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "sides that pass are at most MAX_SIDE"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "sides that pass are at most MAX_SIDE")]
     pub fn new(width: u32, height: u32) -> Result<Self, ViewportSize> {
         let fits = |side: u32| side >= 1 && side <= u32::from(Self::MAX_SIDE);
         if !fits(width) || !fits(height) {
@@ -77,12 +74,7 @@ impl Viewport {
             width: w,
             height: h,
             origin: (0, 0),
-            scissor: Rect {
-                x0: 0,
-                y0: 0,
-                x1: w,
-                y1: h,
-            },
+            scissor: Rect { x0: 0, y0: 0, x1: w, y1: h },
             inverse_area: Scale::of(u64::from(width) * u64::from(height)).reciprocal(),
         })
     }
@@ -91,26 +83,15 @@ impl Viewport {
     #[inline]
     #[must_use]
     pub fn with_origin(self, x: i16, y: i16) -> Self {
-        Self {
-            origin: (i32::from(x), i32::from(y)),
-            ..self
-        }
+        Self { origin: (i32::from(x), i32::from(y)), ..self }
     }
 
     /// The same, drawing only inside `scissor`, which is in the viewport's own pixels.
     #[inline]
     #[must_use]
     pub fn with_scissor(self, scissor: Rect) -> Self {
-        let whole = Rect {
-            x0: 0,
-            y0: 0,
-            x1: self.width,
-            y1: self.height,
-        };
-        Self {
-            scissor: whole.intersect(scissor),
-            ..self
-        }
+        let whole = Rect { x0: 0, y0: 0, x1: self.width, y1: self.height };
+        Self { scissor: whole.intersect(scissor), ..self }
     }
 
     /// Width in pixels.
@@ -134,12 +115,7 @@ impl Viewport {
     pub(crate) fn visible(&self, width: u32, height: u32) -> Rect {
         let side = |v: u32| i32::try_from(v).unwrap_or(i32::MAX >> 1);
         let (x, y) = self.origin;
-        self.scissor.intersect(Rect {
-            x0: -x,
-            y0: -y,
-            x1: side(width) - x,
-            y1: side(height) - y,
-        })
+        self.scissor.intersect(Rect { x0: -x, y0: -y, x1: side(width) - x, y1: side(height) - y })
     }
 }
 
@@ -156,11 +132,7 @@ pub struct ViewportSize {
 impl core::fmt::Display for ViewportSize {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let Self { width, height } = self;
-        write!(
-            f,
-            "a viewport of {width} x {height} pixels: sides are 1 to {}",
-            Viewport::MAX_SIDE
-        )
+        write!(f, "a viewport of {width} x {height} pixels: sides are 1 to {}", Viewport::MAX_SIDE)
     }
 }
 
@@ -176,30 +148,14 @@ mod tests {
         assert!(Viewport::new(1, 512).is_ok());
         assert!(Viewport::new(0, 1).is_err());
         let error = Viewport::new(240, 513).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "a viewport of 240 x 513 pixels: sides are 1 to 512"
-        );
+        assert_eq!(error.to_string(), "a viewport of 240 x 513 pixels: sides are 1 to 512");
     }
 
     #[test]
     fn a_band_sees_its_rows_only() {
         let band = Viewport::new(240, 240).unwrap().with_origin(0, -60);
-        assert_eq!(
-            band.visible(240, 20),
-            Rect {
-                x0: 0,
-                y0: 60,
-                x1: 240,
-                y1: 80
-            }
-        );
-        let off = band.with_scissor(Rect {
-            x0: -9,
-            y0: 0,
-            x1: 999,
-            y1: 60,
-        });
+        assert_eq!(band.visible(240, 20), Rect { x0: 0, y0: 60, x1: 240, y1: 80 });
+        let off = band.with_scissor(Rect { x0: -9, y0: 0, x1: 999, y1: 60 });
         assert!(off.visible(240, 20).is_empty());
     }
 }
