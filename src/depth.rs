@@ -20,7 +20,7 @@
 //! steps are exact integers. Any other row is stored pixel by pixel, each saturated; no value
 //! wraps.
 
-use crate::framebuffer::BufferSize;
+use crate::buffer::BufferSize;
 use crate::math::{Scale, index, low};
 use crate::setup::Setup;
 use crate::span::Span;

@@ -1,7 +1,71 @@
-//! A `#![no_std]`, allocation-free triangle rasterizer with exact coverage, for microcontrollers
-//! with displays.
+//! A `#![no_std]`, allocation-free triangle rasterizer for microcontrollers with displays, with exact
+//! coverage: which pixels a triangle covers is decided by integers, so the triangles of a mesh
+//! neither gap nor overlap, at any angle and on both sides of the eye plane.
 //!
-//! Work in progress docs.
+//! It sets triangles up homogeneously (Olano and Greer, "Triangle Scan Conversion using 2D
+//! Homogeneous Coordinates", 1997), so no triangle is ever cut by a clipper, and no vertex is
+//! divided by its `w` in the exact tier.
+//!
+//! # Data flows one way
+//!
+//! ```text
+//! vertex --> setup --> traversal --> span --> fragment --> target --> display
+//! snapped    edges,    rows and      x0..x1   varyings,    fill,      DMA, SPI
+//! to a grid  planes    intervals              depth        write
+//! ```
+//!
+//! A [`Frame`] joins the stages. What a scene uses is in its type, and what it does not use costs
+//! nothing: the [`Target`] and pixel format, depth ([`NoDepth`] or [`DepthBuffer`]), the range of `w`
+//! ([`NoHither`], [`BothSides`], [`Hither`]), clip [`Plane`]s, the tier ([`Exact`], [`Quick`]) and the
+//! correction of varyings ([`Perspective`], [`PerspectiveEvery`], [`Affine`]).
+//!
+//! # A mesh
+//!
+//! ```
+//! use hither::{Angle, Cull, DepthBuffer, Frame, Framebuffer, Gouraud, Hither, I16F16, Mat4, Mesh};
+//! use hither::{Rgb565, Rgb565Be, Vertex};
+//!
+//! // In flash: positions in quarters of a unit, a colour a vertex, indices.
+//! static TETRAHEDRON: Mesh<[i16; 3], [u8; 3]> = match Mesh::try_new(
+//!     &[[4, 4, 4], [-4, -4, 4], [-4, 4, -4], [4, -4, -4]],
+//!     2,
+//!     &[[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 0]],
+//!     &[[0, 2, 1], [0, 3, 2], [0, 1, 3], [1, 2, 3]],
+//! ) {
+//!     Ok(mesh) => mesh,
+//!     Err(_) => panic!("an index is out of range"),
+//! };
+//!
+//! let (mut color_words, mut depth_words) = ([0; 24 * 24], [0u16; 24 * 24]);
+//! let near = I16F16::ONE;
+//! let mut frame = Frame::new(Framebuffer::<Rgb565Be>::try_new(&mut color_words, 24, 24)?)?
+//!     .with_hither(Hither::new(near)?)
+//!     .with_depth(DepthBuffer::try_new(&mut depth_words, 24, 24)?)?
+//!     .with_cull(Cull::Back);
+//! frame.clear(Rgb565::BLACK);
+//!
+//! let turn = Mat4::rotation_y(Angle::from_degrees(I16F16::from_num(20)).sin_cos());
+//! let away = Mat4::translation([I16F16::ZERO, I16F16::ZERO, I16F16::from_num(-4)]);
+//! let lens = Mat4::perspective(I16F16::from_num(2), I16F16::ONE, near, I16F16::from_num(9))?;
+//! let transform = lens.times(&away.times(&turn)?)?;
+//!
+//! // Vertices are transformed once each, into what the caller lends.
+//! let mut cache = [Vertex::EMPTY; 4];
+//! let counts = frame.draw(&TETRAHEDRON, &transform, &Gouraud, &mut cache);
+//! assert_eq!(counts.drawn + counts.culled, 4);
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+//!
+//! # Features
+//!
+//! - `embedded-graphics`: colours convert to and from embedded-graphics' own.
+//! - `micromath`: matrices from `f32` angles and numbers.
+//! - `defmt`: `defmt::Format` on outcomes, counts, colours and errors.
+//!
+//! # Limits
+//!
+//! Viewports are up to 512 x 512 pixels. Varyings, perspective and depth need a hither plane: their
+//! types ask for it.
 #![no_std]
 #![cfg_attr(
     test,
@@ -19,10 +83,13 @@
 #[cfg(test)]
 extern crate std;
 
+mod buffer;
 mod clip;
 mod color;
 mod depth;
 mod draw;
+#[cfg(feature = "embedded-graphics")]
+mod eg;
 mod fragment;
 mod framebuffer;
 mod interpolation;
@@ -35,6 +102,7 @@ mod transform;
 mod traversal;
 mod vertex;
 
+pub use buffer::BufferSize;
 pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};
 pub use depth::{Always, Compare, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
@@ -42,7 +110,7 @@ pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 pub use fixed;
 pub use fixed::types::I16F16;
 pub use fragment::{FaceColors, Flat, Fragment, Gouraud, Sample, Textured};
-pub use framebuffer::{BufferSize, Framebuffer, Target};
+pub use framebuffer::{Framebuffer, Target};
 pub use interpolation::{Affine, Correction, Interpolates, Perspective, PerspectiveEvery};
 pub use mesh::{AsVaryings, Lit, Mesh, MeshError, NormalColor, StoredPosition, VertexStage};
 pub use setup::{Cull, Facing, Tier};
