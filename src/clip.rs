@@ -237,7 +237,7 @@ impl<const P: usize> ClipEdges<P> {
             if outside.0 & (Outside::FIRST_PLANE << i) != 0 {
                 let values = vertices.map(|v| {
                     let ScaleOf(k) = v.position.scale();
-                    let distance = v.distances.get(i).copied().unwrap_or(0);
+                    let distance = v.distances.get(i).map_or(0, |distance| distance.get());
                     let raw = Scale::power_of_two(i32::from(v.shift));
                     Signed::of(distance).times(k).times(raw)
                 });

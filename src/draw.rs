@@ -13,7 +13,7 @@ use crate::mesh::{Mesh, StoredPosition, VertexStage};
 use crate::setup::{Part, Setup, Tier};
 use crate::span::Span;
 use crate::traversal::Spans;
-use crate::vertex::{ClipVertex, Outside, Rect, Vertex};
+use crate::vertex::{ClipVertex, Distance, Outside, Rect, Vertex};
 use fixed::types::I16F16;
 
 /// What became of a triangle.
@@ -108,11 +108,12 @@ where
     {
         let least_w = self.range.least_w();
         let mut outside = Outside::of(vertex, least_w);
-        let mut distances = [0; P];
+        let mut distances = [Distance::of(0); P];
         let mut bit = Outside::FIRST_PLANE;
         for (distance, plane) in distances.iter_mut().zip(&self.planes) {
-            *distance = plane.distance(vertex);
-            outside.0 |= if *distance < 0 { bit } else { 0 };
+            let value = plane.distance(vertex);
+            *distance = Distance::of(value);
+            outside.0 |= if value < 0 { bit } else { 0 };
             bit <<= 1;
         }
         Vertex {

@@ -125,8 +125,8 @@ pub struct Vertex<T: Snap, const N: usize = 0, const P: usize = 0> {
     pub(crate) shift: u8,
     pub(crate) outside: Outside,
     pub(crate) varyings: [I16F16; N],
-    /// Raw `n . p`, positive inside; one each clip plane.
-    pub(crate) distances: [i64; P],
+    /// One each clip plane.
+    pub(crate) distances: [Distance; P],
 }
 
 impl<T: Snap, const N: usize, const P: usize> Vertex<T, N, P> {
@@ -137,7 +137,7 @@ impl<T: Snap, const N: usize, const P: usize> Vertex<T, N, P> {
         shift: 0,
         outside: Outside(0),
         varyings: [I16F16::ZERO; N],
-        distances: [0; P],
+        distances: [Distance::of(0); P],
     };
 
     /// The snapped position, as coverage sees it.
@@ -152,6 +152,29 @@ impl<T: Snap, const N: usize, const P: usize> Vertex<T, N, P> {
     #[must_use]
     pub const fn varyings(&self) -> &[I16F16; N] {
         &self.varyings
+    }
+}
+
+/// The raw distance `n . p` of a vertex from a clip plane, positive inside: 64 bits as two words, so
+/// that a vertex without planes is not aligned for them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Distance {
+    high: i32,
+    low: u32,
+}
+
+impl Distance {
+    /// From a whole number.
+    #[inline]
+    #[expect(clippy::cast_sign_loss, reason = "the low word as it is")]
+    pub(crate) const fn of(v: i64) -> Self {
+        Self { high: low(v >> 32), low: low(v) as u32 }
+    }
+
+    /// To a whole number.
+    #[inline]
+    pub(crate) const fn get(self) -> i64 {
+        (self.high as i64) << 32 | self.low as i64
     }
 }
 
@@ -215,6 +238,13 @@ mod tests {
         let extreme = ClipVertex::from_wide([i64::MIN, i64::MAX, 0, 1]);
         assert_eq!(extreme.shift, 34);
         assert_eq!(extreme.raw, [-(1 << 29), 1 << 29, 0, 0]);
+    }
+
+    #[test]
+    fn distances_keep_64_bits() {
+        for v in [0, 1, -1, 1 << 31, -(1 << 31), 1 << 61, i64::MIN, i64::MAX, 0xffff_ffff] {
+            assert_eq!(Distance::of(v).get(), v);
+        }
     }
 
     #[test]
