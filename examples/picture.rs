@@ -2,7 +2,16 @@
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Where the build's output goes, and pictures with it: `CARGO_TARGET_DIR`, or `target` in the workspace.
+#[must_use]
+pub fn target_folder() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target"),
+        PathBuf::from,
+    )
+}
 
 /// Writes an 8-bit RGB picture as PNG, and the folders above it where they are missing.
 ///
@@ -101,13 +110,11 @@ fn encode(
 mod tests {
     use super::*;
     use std::io::BufReader;
-    use std::path::PathBuf;
 
     /// A path that no other test uses, in a folder that does not exist yet.
     fn fresh(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir()
-            .join(format!("hither-picture-{}", std::process::id()))
-            .join(name);
+        let folder =
+            std::env::temp_dir().join(format!("hither-picture-{}", std::process::id())).join(name);
         let _ = fs::remove_dir_all(&folder);
         folder.join("deep").join("picture.png")
     }
@@ -123,10 +130,7 @@ mod tests {
     fn read(path: &Path) -> Read {
         let file = BufReader::new(File::open(path).unwrap());
         let mut reader = png::Decoder::new(file).read_info().unwrap();
-        assert_eq!(
-            reader.output_color_type(),
-            (png::ColorType::Rgb, png::BitDepth::Eight)
-        );
+        assert_eq!(reader.output_color_type(), (png::ColorType::Rgb, png::BitDepth::Eight));
         let info = reader.info();
         let size = [info.width, info.height];
         let count = info.animation_control.map_or(1, |a| a.num_frames);
@@ -138,17 +142,11 @@ mod tests {
                 frame
             })
             .collect();
-        Read {
-            size,
-            delay,
-            frames,
-        }
+        Read { size, delay, frames }
     }
 
     fn pattern(length: usize, seed: usize) -> Vec<u8> {
-        (0..length)
-            .map(|i| ((i * 37 + seed * 91) % 251) as u8)
-            .collect()
+        (0..length).map(|i| ((i * 37 + seed * 91) % 251) as u8).collect()
     }
 
     #[test]
@@ -156,11 +154,7 @@ mod tests {
         let path = fresh("png");
         let rgb = pattern(3 * 7 * 5, 1);
         write_png(&path, 7, 5, &rgb).unwrap();
-        let expected = Read {
-            size: [7, 5],
-            delay: None,
-            frames: vec![rgb],
-        };
+        let expected = Read { size: [7, 5], delay: None, frames: vec![rgb] };
         assert_eq!(read(&path), expected);
     }
 
@@ -169,11 +163,7 @@ mod tests {
         let path = fresh("apng");
         let frames: Vec<_> = (0..3).map(|seed| pattern(3 * 4 * 6, seed)).collect();
         write_apng(&path, 4, 6, &frames, 40).unwrap();
-        let expected = Read {
-            size: [4, 6],
-            delay: Some((40, 1000)),
-            frames,
-        };
+        let expected = Read { size: [4, 6], delay: Some((40, 1000)), frames };
         assert_eq!(read(&path), expected);
     }
 
@@ -184,10 +174,7 @@ mod tests {
         let error = write_apng(&path, 2, 2, &frames, 40).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
         let message = error.to_string();
-        assert!(
-            message.ends_with("2 x 2 pixels take 12 bytes, frame 1 has 11"),
-            "{message}"
-        );
+        assert!(message.ends_with("2 x 2 pixels take 12 bytes, frame 1 has 11"), "{message}");
         assert!(!path.exists());
         assert!(write_png(&path, u32::MAX, u32::MAX, &[]).is_err());
     }

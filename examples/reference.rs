@@ -135,19 +135,11 @@ struct Setup<'a> {
 impl<'a> Setup<'a> {
     /// `None` for a triangle that is seen edge-on, is not finite, or is culled.
     fn new(vertices: &'a [Vertex; 3], cull: Cull) -> Option<Self> {
-        let [a, b, c] = vertices.map(
-            |Vertex {
-                 clip: [x, y, _, w], ..
-             }| [x, y, w],
-        );
+        let [a, b, c] = vertices.map(|Vertex { clip: [x, y, _, w], .. }| [x, y, w]);
         let edges = [cross(b, c), cross(c, a), cross(a, b)];
         let determinant = dot(a, edges[0]);
         let is_drawn = determinant > 0.0 || (determinant < 0.0 && cull == Cull::None);
-        (is_drawn && determinant.is_finite()).then_some(Self {
-            vertices,
-            edges,
-            determinant,
-        })
+        (is_drawn && determinant.is_finite()).then_some(Self { vertices, edges, determinant })
     }
 
     /// The columns and rows outside which no pixel is covered: everything, unless the whole triangle is before the eye.
@@ -165,10 +157,7 @@ impl<'a> Setup<'a> {
             let high = pixels.into_iter().fold(f64::NEG_INFINITY, f64::max) + 1.0;
             (low as usize).min(side)..(high.ceil() as usize).min(side)
         };
-        [
-            range(size[0], &|v| v.clip[0]),
-            range(size[1], &|v| -v.clip[1]),
-        ]
+        [range(size[0], &|v| v.clip[0]), range(size[1], &|v| -v.clip[1])]
     }
 
     /// The fragment at a point `(x, y, 1)` of NDC, if the triangle covers it before the eye.
@@ -234,11 +223,7 @@ impl fmt::Display for Difference {
 /// If they have different numbers of pixels.
 #[must_use]
 pub fn compare(ours: &[u16], reference: &[u16]) -> Difference {
-    assert_eq!(
-        ours.len(),
-        reference.len(),
-        "pictures of different sizes cannot be compared"
-    );
+    assert_eq!(ours.len(), reference.len(), "pictures of different sizes cannot be compared");
     let mut differing = 0;
     let mut largest = 0;
     let mut sum = 0_u64;
@@ -267,10 +252,7 @@ mod tests {
 
     /// A vertex at a place of NDC, with one varying.
     fn vertex([x, y, z]: [f64; 3], w: f64, varying: f64) -> Vertex {
-        Vertex {
-            clip: [x * w, y * w, z * w, w],
-            varyings: [varying, 0.0, 0.0],
-        }
+        Vertex { clip: [x * w, y * w, z * w, w], varyings: [varying, 0.0, 0.0] }
     }
 
     /// A triangle in NDC at one depth, in one colour of red.
@@ -281,22 +263,14 @@ mod tests {
     /// Rows of text: what is not black is `#`.
     fn rows(canvas: &Canvas) -> Vec<String> {
         let mark = |&c: &[f64; 3]| if c == BLACK { ' ' } else { '#' };
-        canvas
-            .colors
-            .chunks(canvas.size[0])
-            .map(|row| row.iter().map(mark).collect())
-            .collect()
+        canvas.colors.chunks(canvas.size[0]).map(|row| row.iter().map(mark).collect()).collect()
     }
 
     #[test]
     fn a_known_triangle() {
         let mut canvas = Canvas::new(8, 8, 0.5, BLACK);
         // The left edge goes through pixel centres and is in, the diagonal as well and is out.
-        let triangle = flat(
-            [[-0.875, -0.875], [0.875, -0.875], [-0.875, 0.875]],
-            0.5,
-            1.0,
-        );
+        let triangle = flat([[-0.875, -0.875], [0.875, -0.875], [-0.875, 0.875]], 0.5, 1.0);
         let written = canvas.draw(&[triangle], Cull::Back, |_| RED);
         assert_eq!(
             rows(&canvas),
@@ -338,10 +312,7 @@ mod tests {
         let mut canvas = Canvas::new(3, 2, 0.5, BLACK);
         assert_eq!(canvas.draw(&[near, near], Cull::Back, |v| v), 6);
         let behind = flat(everywhere, 1.0, 1.0);
-        assert_eq!(
-            Canvas::new(3, 2, 0.5, BLACK).draw(&[behind], Cull::Back, |v| v),
-            0
-        );
+        assert_eq!(Canvas::new(3, 2, 0.5, BLACK).draw(&[behind], Cull::Back, |v| v), 0);
     }
 
     #[test]
@@ -356,10 +327,8 @@ mod tests {
     #[test]
     fn a_ground_through_the_eye_ends_at_the_horizon_and_at_the_hither_plane() {
         // A plane one unit below the eye, which looks along -z with 90 degrees: clip x, y, w = x, -1, -z.
-        let at = |x: f64, z: f64| Vertex {
-            clip: [x, -1.0, -z * 0.5, -z],
-            varyings: [-z, 0.0, 0.0],
-        };
+        let at =
+            |x: f64, z: f64| Vertex { clip: [x, -1.0, -z * 0.5, -z], varyings: [-z, 0.0, 0.0] };
         let far = 1e6;
         let ground = [
             [at(-far, far), at(far, far), at(far, -far)],
@@ -371,10 +340,7 @@ mod tests {
             // The ground's w at a row is 1 over how far the row is below the middle.
             let w = -1.0 / (1.0 - (2.0 * (pixel / 6) as f64 + 1.0) / 16.0);
             let expected = if w >= 1.5 { w } else { 0.0 };
-            assert!(
-                (color[0] - expected).abs() < 1e-6,
-                "{pixel}: {color:?} {expected}"
-            );
+            assert!((color[0] - expected).abs() < 1e-6, "{pixel}: {color:?} {expected}");
         }
     }
 
@@ -382,17 +348,10 @@ mod tests {
     fn a_fan_covers_every_pixel_once() {
         // The middle on a pixel centre, and off it.
         for middle in [[1.0 / 9.0, 1.0 / 9.0], [0.123, -0.321]] {
-            let ring = [
-                [-5.0, -5.0],
-                [0.3, -7.0],
-                [5.0, -5.0],
-                [7.0, 0.1],
-                [5.0, 5.0],
-                [-5.0, 5.0],
-            ];
-            let fan: Vec<_> = (0..6)
-                .map(|i| flat([middle, ring[i], ring[(i + 1) % 6]], 0.5, 1.0))
-                .collect();
+            let ring =
+                [[-5.0, -5.0], [0.3, -7.0], [5.0, -5.0], [7.0, 0.1], [5.0, 5.0], [-5.0, 5.0]];
+            let fan: Vec<_> =
+                (0..6).map(|i| flat([middle, ring[i], ring[(i + 1) % 6]], 0.5, 1.0)).collect();
             let once = fan
                 .iter()
                 .map(|&t| Canvas::new(9, 9, 0.5, BLACK).draw(&[t], Cull::Back, |v| v))

@@ -14,11 +14,7 @@
 pub fn expand(word: u16) -> [u8; 3] {
     // The mask leaves 5 and 6 bits: the casts drop nothing.
     let (red, green, blue) = (word >> 11, word >> 5 & 0x3f, word & 0x1f);
-    [
-        (red << 3 | red >> 2) as u8,
-        (green << 2 | green >> 4) as u8,
-        (blue << 3 | blue >> 2) as u8,
-    ]
+    [(red << 3 | red >> 2) as u8, (green << 2 | green >> 4) as u8, (blue << 3 | blue >> 2) as u8]
 }
 
 /// The 8-bit channels of many RGB565 words (native byte order), three bytes for each, in order.

@@ -13,7 +13,7 @@
 //! `n . p` is within 2^-28 of the largest `|n . p_i|` of the triangle's vertices; the contract asks
 //! for 2^-12. Only triangles that cross a plane pay.
 
-use crate::math::Scale;
+use crate::math::{Scale, Signed, align, combine};
 use crate::setup::Setup;
 use crate::vertex::{ClipVertex, Outside, Position, ScaleOf, Snap, Snapped, Vertex};
 use fixed::types::I16F16;
@@ -146,44 +146,10 @@ pub(crate) struct HalfPlane<I> {
     pub(crate) c: I,
 }
 
-/// A real with a sign.
-#[derive(Clone, Copy)]
-struct Signed {
-    negative: bool,
-    scale: Scale,
-}
-
-impl Signed {
-    #[inline]
-    fn of(v: i64) -> Self {
-        Self { negative: v < 0, scale: Scale::of(v.unsigned_abs()) }
-    }
-
-    #[inline]
-    fn times(self, scale: Scale) -> Self {
-        Self { scale: self.scale.times(scale), ..self }
-    }
-}
-
-/// Three reals as integers of at most 62 bits on one scale.
-fn align(values: [Signed; 3]) -> [i128; 3] {
-    let top = values
-        .iter()
-        .filter(|v| v.scale.mantissa != 0)
-        .map(|v| v.scale.exponent)
-        .max()
-        .unwrap_or(0);
-    values.map(|v| {
-        let drop = (top - v.scale.exponent).clamp(0, 63).unsigned_abs();
-        let magnitude = i128::from((u64::from(v.scale.mantissa) << 30) >> drop);
-        if v.negative { -magnitude } else { magnitude }
-    })
-}
-
 /// The edge function of a plane with values `values[i] = k_i n(p_i)`, over an oriented setup.
 fn half_plane(setup: &Setup, values: [Signed; 3]) -> HalfPlane<i128> {
-    let [u, v, w] = align(values);
-    let sum = |[x, y, z]: [i64; 3]| u * i128::from(x) + v * i128::from(y) + w * i128::from(z);
+    let (values, _) = align(values);
+    let sum = |edges: [i64; 3]| combine(values, edges);
     HalfPlane { a: sum(setup.a) << setup.step, b: sum(setup.b) << setup.step, c: sum(setup.c) }
 }
 
@@ -260,14 +226,5 @@ mod tests {
         assert_eq!(all([i32::MIN, i32::MAX, 16, 0]), [-(1 << 27), (1 << 27) - 1, 1, 0]);
         let far = ClipVertex { raw: [i32::MIN; 4], shift: 0 };
         assert_eq!(Plane::new([I16F16::MIN; 4]).distance(&far), 1 << 60);
-    }
-
-    #[test]
-    fn aligned_values_keep_sign_and_ratio() {
-        let values = [Signed::of(3), Signed::of(-5), Signed::of(7).times(Scale::power_of_two(40))];
-        let [a, b, c] = align(values);
-        assert_eq!((a * 5, c), (-b * 3, (a << 40) / 3 * 7));
-        let [zero, _, top] = align([Signed::of(0), Signed::of(1), Signed::of(i64::MIN)]);
-        assert_eq!((zero, top), (0, -(1 << 61)));
     }
 }

@@ -4,27 +4,27 @@
 //! 1997, section 4). The running value is 32 bits, `(z / w)(2^N - 1) 2^(32 - N)`; its top `N` bits
 //! are stored, rounded.
 //!
-//! Error budget for `N = 16`, in stored units of 2^16 running ones (after Rossignac, section 9.3.1:
-//! the running value carries the bits that its additions lose):
-//! - each row starts from the exact edge functions: each of three weights is within 2^-29 of
-//!   itself, the part they share (`1 / D`) changes nothing but the scale of the whole, so the start
-//!   is within 2^-13 of a unit for vertices in front of the eye, and 2^-2 where one is 4096 hither
-//!   distances behind it;
+//! Error budget for `N = 16` in the exact tier, in stored units of 2^16 running ones (after
+//! Rossignac, section 9.3.1: the running value carries the bits that its additions lose):
+//! - each row starts from the exact edge functions. Where every vertex has `|z| <= 4 w`, the three
+//!   terms are at most 4 of the range, each within 2^-29 of itself: 2^-10 in all. Where one has not
+//!   (it is behind the eye, or far beyond far) terms may cancel: then the sum is made in 128 bits,
+//!   exactly but for 2^-60 of the largest term, and scaled once, within 2^-28: 2^-12;
 //! - the step is rounded to half a running unit: 511 steps add 2^-8;
 //! - rounding to 16 bits adds 1/2.
 //!
 //! So a stored depth is within 1 unit of the exact plane at every covered pixel. With `N = 32` the
-//! running value itself is stored: within 2^-15 of the range for `w` in front of the eye.
+//! running value itself is stored, within 2^10 of its units: 2^-22 of the range.
 //!
 //! A row whose ends are both inside of the range is inside all along, since a row is linear and its
 //! steps are exact integers. Any other row is stored pixel by pixel, each saturated; no value
 //! wraps.
 
 use crate::buffer::BufferSize;
-use crate::math::{Scale, index, low};
+use crate::math::{Scale, Signed, align, combine, index, low, narrowed};
 use crate::setup::Setup;
 use crate::span::Span;
-use crate::vertex::{Position, ScaleOf, Snap, Vertex};
+use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 use bytemuck::Pod;
 use core::marker::PhantomData;
 
@@ -209,12 +209,21 @@ impl<W: DepthWord, C: Compare> DepthTest for DepthBuffer<'_, W, C> {
 /// The depth of one triangle: `z / w` as a linear function of the edge functions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DepthPlane {
-    /// Running units a unit of `E_i`, and whether negative.
-    weights: [(Scale, bool); 3],
+    weights: Weights,
     /// Running units a pixel along a row.
     step: i64,
     /// What rounds a running value to a stored one.
     half: i64,
+}
+
+/// What turns edge functions into running values.
+#[derive(Clone, Copy, Debug)]
+enum Weights {
+    /// Running units a unit of each `E_i`, where none of the three terms is large.
+    Each([Signed; 3]),
+    /// `k_i z_i` as integers on one scale, and the running units of their sum, where terms may
+    /// cancel: the sum is exact, and scaled once.
+    Sum([i128; 3], Scale),
 }
 
 /// A run of depths along a row.
@@ -234,22 +243,28 @@ impl DepthPlane {
         setup: &Setup,
         vertices: [&Vertex<T, N, P>; 3],
         bits: u32,
+        outside: Outside,
     ) -> Self {
         let full = Scale::of(((1 << bits) - 1) << (32 - bits)).times(setup.inverse);
-        let weights = vertices.map(|v| {
+        let values = vertices.map(|v| {
             let ScaleOf(k) = v.position.scale();
-            let z = Scale::of(u64::from(v.z.unsigned_abs()));
             let raw = Scale::power_of_two(i32::from(v.shift));
-            (z.times(k).times(raw).times(full), v.z < 0)
+            Signed::of(i64::from(v.z)).times(k).times(raw)
         });
-        let step = combine(&weights, setup.a.map(|a| a << setup.step));
+        let weights = if outside.0 & Outside::STEEP == 0 {
+            Weights::Each(values.map(|value| value.times(full)))
+        } else {
+            let (values, exponent) = align(values);
+            Weights::Sum(values, full.times(Scale::power_of_two(exponent)))
+        };
+        let step = weights.apply(setup.a.map(|a| a << setup.step));
         Self { weights, step, half: (1i64 << (32 - bits)) >> 1 }
     }
 
     /// The run of a span whose edge functions at its first pixel are `edges`.
     #[inline]
     pub(crate) fn run(&self, span: Span, edges: [i64; 3]) -> DepthRun {
-        let first = combine(&self.weights, edges).saturating_add(self.half);
+        let first = self.weights.apply(edges).saturating_add(self.half);
         let pixels = i64::from(span.x1 - 1 - span.x0);
         let last = first.saturating_add(self.step.saturating_mul(pixels));
         let fits = |v: i64| v >= 0 && v <= i64::from(u32::MAX);
@@ -271,16 +286,22 @@ impl DepthRun {
     }
 }
 
-/// `sum(weight_i E_i)`, rounded, saturating.
-#[inline]
-fn combine(weights: &[(Scale, bool); 3], edges: [i64; 3]) -> i64 {
-    let [(s0, n0), (s1, n1), (s2, n2)] = *weights;
-    let term = |scale: Scale, negative: bool, edge: i64| {
-        let value = scale.apply(edge, 0);
-        if negative { -value } else { value }
-    };
-    let [e0, e1, e2] = edges;
-    term(s0, n0, e0).saturating_add(term(s1, n1, e1)).saturating_add(term(s2, n2, e2))
+impl Weights {
+    /// The running value where the edge functions are `edges`, or its step where these are theirs:
+    /// rounded, saturating.
+    #[inline]
+    fn apply(&self, edges: [i64; 3]) -> i64 {
+        match self {
+            Self::Each([u, v, w]) => {
+                let [x, y, z] = edges;
+                u.apply(x, 0).saturating_add(v.apply(y, 0)).saturating_add(w.apply(z, 0))
+            }
+            Self::Sum(values, scale) => {
+                let (sum, exponent) = narrowed(combine(*values, edges));
+                scale.apply(sum, exponent)
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,20 +1,20 @@
 //! The front door: a frame that triangles and meshes are drawn into, and what became of each.
 
 mod frame;
+mod shade;
 
 pub use frame::{DepthFrame, DepthSize, DisplayFrame, Frame};
 
 use crate::clip::{ClipEdges, Hither};
-use crate::depth::{DepthPlane, DepthRun, DepthTest};
-use crate::fragment::{Fragment, Sample};
-use crate::framebuffer::{Target, run};
-use crate::interpolation::{BLOCK, Correction, Interpolates, Mode, Run, Varyings};
+use crate::depth::{DepthPlane, DepthTest};
+use crate::fragment::Fragment;
+use crate::framebuffer::Target;
+use crate::interpolation::{Correction, Interpolates, Varyings};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
 use crate::setup::{Part, Setup, Tier};
-use crate::span::Span;
-use crate::traversal::Spans;
 use crate::vertex::{ClipVertex, Distance, Outside, Rect, Vertex};
 use fixed::types::I16F16;
+use shade::Shading;
 
 /// What became of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,7 +58,28 @@ pub struct Counts {
     pub zero_area: u32,
 }
 
+impl core::ops::AddAssign for Counts {
+    fn add_assign(&mut self, other: Self) {
+        let add = |a: &mut u32, b: u32| *a = a.saturating_add(b);
+        add(&mut self.drawn, other.drawn);
+        add(&mut self.fallbacks, other.fallbacks);
+        add(&mut self.culled, other.culled);
+        add(&mut self.behind, other.behind);
+        add(&mut self.clipped, other.clipped);
+        add(&mut self.off_screen, other.off_screen);
+        add(&mut self.zero_area, other.zero_area);
+    }
+}
+
 impl Counts {
+    /// All triangles that were counted.
+    #[must_use]
+    pub const fn total(&self) -> u32 {
+        let gone = self.culled.saturating_add(self.behind).saturating_add(self.clipped);
+        let none = self.off_screen.saturating_add(self.zero_area);
+        self.drawn.saturating_add(gone).saturating_add(none)
+    }
+
     /// Counts one more.
     pub fn add(&mut self, outcome: Outcome) {
         let count = match outcome {
@@ -75,15 +96,6 @@ impl Counts {
         };
         *count = count.saturating_add(1);
     }
-}
-
-/// What a triangle's pixels are made from, once it is set up.
-struct Shading<'a, F, const N: usize> {
-    fragment: &'a F,
-    /// There unless `N` is 0.
-    varyings: Option<Varyings<N>>,
-    /// There where depth is kept.
-    depth: Option<DepthPlane>,
 }
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
@@ -174,7 +186,7 @@ where
                 .hither()
                 .filter(|_| N > 0)
                 .map(|hither| Varyings::new::<T, I, P>(&setup, vertices, hither, outside)),
-            depth: (D::BITS > 0).then(|| DepthPlane::new(&setup, vertices, D::BITS)),
+            depth: (D::BITS > 0).then(|| DepthPlane::new(&setup, vertices, D::BITS, outside)),
         };
         let cut = (W::CLIPS || P > 0) && outside.0 & Outside::CLIPS != 0;
         let hither = self.hither();
@@ -249,134 +261,6 @@ where
         }
         counts
     }
-
-    /// Draws what a part covers of a box.
-    #[inline]
-    fn draw_part<F, const N: usize>(
-        &mut self,
-        setup: &Setup,
-        bounds: Rect,
-        clip: Option<&ClipEdges<P>>,
-        shading: &Shading<'_, F, N>,
-    ) where
-        F: Fragment<C::Color, N>,
-    {
-        let length = match &shading.varyings {
-            Some(varyings) if varyings.mode == Mode::Pieces => I::EVERY,
-            Some(varyings) if varyings.mode == Mode::Divided => BLOCK,
-            _ => i32::MAX,
-        };
-        for span in Spans::new(setup, bounds, clip, T::NARROW) {
-            if F::UNIFORM && shading.depth.is_none() && N == 0 {
-                self.fill(span, shading);
-            } else {
-                for block in span.blocks(length) {
-                    self.draw_block(setup, block, shading);
-                }
-            }
-        }
-    }
-
-    /// Fills a span with the shader's one colour.
-    #[inline]
-    fn fill<F, const N: usize>(&mut self, span: Span, shading: &Shading<'_, F, N>)
-    where
-        F: Fragment<C::Color, N>,
-    {
-        let Span { y, x0, x1 } = span;
-        let varyings = [I16F16::ZERO; N];
-        let color = shading.fragment.shade(Sample { x: x0, y, varyings });
-        let (left, top) = self.viewport.origin;
-        let (x, length) = run(x0 + left, x1 + left);
-        let (y, _) = run(y + top, y + top);
-        self.target.fill(x, y, length, color);
-    }
-
-    /// Draws a block: depth and varyings start from the exact edge functions at its first pixel.
-    #[inline]
-    fn draw_block<F, const N: usize>(
-        &mut self,
-        setup: &Setup,
-        block: Span,
-        shading: &Shading<'_, F, N>,
-    ) where
-        F: Fragment<C::Color, N>,
-    {
-        let edges = setup.edges_at(block.x0, block.y);
-        let depth = shading.depth.map_or(DepthRun::NONE, |plane| plane.run(block, edges));
-        if !depth.inside && block.x1 - block.x0 > 1 {
-            // Some depth of the row saturates: each pixel by itself.
-            for pixel in block.blocks(1) {
-                self.draw_block_inside(setup, pixel, shading);
-            }
-        } else {
-            self.draw_run_of(setup, block, edges, depth, shading);
-        }
-    }
-
-    /// A single pixel, whose depth saturates by itself.
-    fn draw_block_inside<F, const N: usize>(
-        &mut self,
-        setup: &Setup,
-        pixel: Span,
-        shading: &Shading<'_, F, N>,
-    ) where
-        F: Fragment<C::Color, N>,
-    {
-        let edges = setup.edges_at(pixel.x0, pixel.y);
-        let depth = shading.depth.map_or(DepthRun::NONE, |plane| plane.run(pixel, edges));
-        self.draw_run_of(setup, pixel, edges, depth, shading);
-    }
-
-    /// Draws a block by the way its varyings run.
-    #[inline]
-    fn draw_run_of<F, const N: usize>(
-        &mut self,
-        setup: &Setup,
-        block: Span,
-        edges: [i64; 3],
-        depth: DepthRun,
-        shading: &Shading<'_, F, N>,
-    ) where
-        F: Fragment<C::Color, N>,
-    {
-        match &shading.varyings {
-            None => self.draw_run(block, NoVaryings, depth, shading.fragment),
-            Some(v) if v.mode == Mode::Divided && I::EVERY == 1 => {
-                self.draw_run(block, v.divided(edges), depth, shading.fragment);
-            }
-            Some(v) => self.draw_run(block, v.ramp(setup, block, edges), depth, shading.fragment),
-        }
-    }
-
-    /// The pixel loop: test, shade what passes, write.
-    #[inline]
-    fn draw_run<F, R, const N: usize>(
-        &mut self,
-        block: Span,
-        mut varyings: R,
-        depth: DepthRun,
-        fragment: &F,
-    ) where
-        F: Fragment<C::Color, N>,
-        R: Run<N>,
-    {
-        let Span { y, x0, x1 } = block;
-        let (left, top) = self.viewport.origin;
-        let (first, length) = run(x0 + left, x1 + left);
-        let (row, _) = run(y + top, y + top);
-        let (running, step) = depth.running();
-        let tests = self.depth.test(x0 + left, y + top, x1 - x0, running, step);
-        let mut x = x0;
-        let colors = tests.take(length).map(|passes| {
-            let color =
-                passes.then(|| fragment.shade(Sample { x, y, varyings: varyings.varyings() }));
-            varyings.step();
-            x += 1;
-            color
-        });
-        self.target.write(first, row, colors);
-    }
 }
 
 /// Why a triangle whose vertices are all outside of the bounds in `all` shows nothing, if so.
@@ -396,15 +280,29 @@ fn rejected<W: Interpolates<N>, const N: usize>(all: u16) -> Option<Outcome> {
     }
 }
 
-/// No varyings to step along.
-struct NoVaryings;
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl<const N: usize> Run<N> for NoVaryings {
-    #[inline]
-    fn varyings(&self) -> [I16F16; N] {
-        [I16F16::ZERO; N]
+    #[test]
+    fn counts_add_up() {
+        let all = [
+            Outcome::Drawn,
+            Outcome::DrawnByFallback,
+            Outcome::Culled,
+            Outcome::Behind,
+            Outcome::Clipped,
+            Outcome::OffScreen,
+            Outcome::ZeroArea,
+        ];
+        let mut counts = Counts::default();
+        for outcome in all {
+            counts.add(outcome);
+        }
+        assert_eq!((counts.drawn, counts.fallbacks, counts.total()), (2, 1, 7));
+        counts += counts;
+        assert_eq!((counts.drawn, counts.fallbacks, counts.total()), (4, 2, 14));
+        counts += Counts { drawn: u32::MAX, ..Counts::default() };
+        assert_eq!(counts.drawn, u32::MAX);
     }
-
-    #[inline]
-    fn step(&mut self) {}
 }

@@ -158,6 +158,66 @@ impl Scale {
     }
 }
 
+/// A real with a sign.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Signed {
+    pub(crate) negative: bool,
+    pub(crate) scale: Scale,
+}
+
+impl Signed {
+    /// `v`, truncated to 32 bits of precision.
+    #[inline]
+    pub(crate) const fn of(v: i64) -> Self {
+        Self { negative: v < 0, scale: Scale::of(v.unsigned_abs()) }
+    }
+
+    /// `self * scale`, truncated.
+    #[inline]
+    pub(crate) const fn times(self, scale: Scale) -> Self {
+        Self { scale: self.scale.times(scale), ..self }
+    }
+
+    /// [`Scale::apply`] with the sign.
+    #[inline]
+    pub(crate) const fn apply(self, v: i64, fraction: i32) -> i64 {
+        let value = self.scale.apply(v, fraction);
+        if self.negative { -value } else { value }
+    }
+}
+
+/// Three reals as integers of at most 62 bits, and the exponent of their unit: exact but for what is
+/// more than 31 bits below the largest, of which bits below 2^-61 of it are dropped.
+pub(crate) fn align(values: [Signed; 3]) -> ([i128; 3], i32) {
+    let top = values
+        .iter()
+        .filter(|v| v.scale.mantissa != 0)
+        .map(|v| v.scale.exponent)
+        .max()
+        .unwrap_or(0);
+    let aligned = values.map(|v| {
+        let drop = (top - v.scale.exponent).clamp(0, 63).unsigned_abs();
+        let magnitude = i128::from((u64::from(v.scale.mantissa) << 30) >> drop);
+        if v.negative { -magnitude } else { magnitude }
+    });
+    (aligned, top - 30)
+}
+
+/// The linear combination of three edge functions, or of their steps. Weights of at most 62 bits and
+/// edges of at most 62 make at most 126.
+#[inline]
+pub(crate) fn combine([u, v, w]: [i128; 3], [x, y, z]: [i64; 3]) -> i128 {
+    u * i128::from(x) + v * i128::from(y) + w * i128::from(z)
+}
+
+/// `v` as 64 bits and an exponent, floored.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "shifted into range")]
+pub(crate) fn narrowed(v: i128) -> (i64, i32) {
+    let shift = 65u32.saturating_sub(v.unsigned_abs().leading_zeros());
+    ((v >> shift) as i64, bits(shift))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -228,5 +288,25 @@ mod tests {
         assert_eq!(third.apply(3 << 20, 0), 1 << 20);
         assert_eq!(third.times(Scale::of(9)).apply(1 << 20, 0), 3 << 20);
         assert_eq!(Scale::of(u64::MAX).apply(1, -40), 1 << 24);
+    }
+
+    #[test]
+    fn aligned_values_keep_sign_and_ratio() {
+        let values = [Signed::of(3), Signed::of(-5), Signed::of(7).times(Scale::power_of_two(40))];
+        let ([a, b, c], exponent) = align(values);
+        assert_eq!(c, 7 << (40 - exponent));
+        assert_eq!((a * 5, c), (-b * 3, (a << 40) / 3 * 7));
+        let ([zero, _, top], _) = align([Signed::of(0), Signed::of(1), Signed::of(i64::MIN)]);
+        assert_eq!((zero, top), (0, -(1 << 61)));
+    }
+
+    #[test]
+    fn narrowed_values_keep_63_bits() {
+        for v in [0, 1, -1, i128::from(i64::MAX), i128::from(i64::MIN), 3 << 100, -(5 << 120)] {
+            let (n, exponent) = narrowed(v);
+            assert_eq!(i128::from(n) << exponent, v, "{v}");
+        }
+        let (n, exponent) = narrowed(i128::MIN + 1);
+        assert_eq!((n, exponent), (i64::MIN, 64));
     }
 }

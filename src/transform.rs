@@ -257,6 +257,8 @@ pub enum MatrixError {
     },
     /// The view has no direction: the eye is the target, or `up` is zero or along the view.
     Direction,
+    /// A light has no direction.
+    Light,
     /// Not `0 < near < far`, or a focal length or aspect that is not positive.
     Perspective,
 }
@@ -271,6 +273,7 @@ impl core::fmt::Display for MatrixError {
             Self::Direction => {
                 f.write_str("the view has no direction: eye, target and up are in line")
             }
+            Self::Light => f.write_str("the light has no direction: a vector of length 0"),
             Self::Perspective => f.write_str(
                 "a perspective needs 0 < near < far, and a focal length and aspect above 0",
             ),

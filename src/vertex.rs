@@ -190,20 +190,23 @@ impl Outside {
     pub(crate) const SIDES: u16 = 0b1_1110;
     /// The first clip plane; the others follow.
     pub(crate) const FIRST_PLANE: u16 = 1 << 5;
-    /// All planes that clip.
-    pub(crate) const CLIPS: u16 = !Self::SIDES;
+    /// All planes that clip: hither and up to eight more.
+    pub(crate) const CLIPS: u16 = 0b1_1111_1110_0001;
+    /// Not a bound: `z / w` is not within ±4, so depths of the triangle may cancel.
+    pub(crate) const STEEP: u16 = 1 << 15;
 
     /// The outcodes of a vertex against the eye or hither plane, and the viewport's sides.
     #[inline]
     pub(crate) fn of(vertex: &ClipVertex, hither: i64) -> Self {
-        let [x, y, _, w] = vertex.raw.map(i64::from);
+        let [x, y, z, w] = vertex.raw.map(i64::from);
         let bit = |outside: bool, n: u16| u16::from(outside) << n;
         Self(
             bit(vertex.wide_w() < hither, 0)
                 | bit(x + w < 0, 1)
                 | bit(w - x < 0, 2)
                 | bit(y + w < 0, 3)
-                | bit(w - y < 0, 4),
+                | bit(w - y < 0, 4)
+                | bit(z.abs() > 4 * w, 15),
         )
     }
 }

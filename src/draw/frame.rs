@@ -173,6 +173,11 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
         Self { cull, ..self }
     }
 
+    /// Leaves out a facing from here on, for scenes whose meshes differ.
+    pub const fn set_cull(&mut self, cull: Cull) {
+        self.cull = cull;
+    }
+
     /// The viewport.
     #[must_use]
     pub const fn viewport(&self) -> &Viewport {

@@ -2,7 +2,7 @@
 
 use super::{VertexStage, unit};
 use crate::math::{low, shr_round};
-use crate::transform::{Mat4, ModelPosition, Vec3};
+use crate::transform::{Mat4, MatrixError, ModelPosition, Vec3};
 use crate::vertex::ClipVertex;
 use fixed::types::I16F16;
 
@@ -35,20 +35,23 @@ pub struct Lit {
 impl Lit {
     /// A stage for a mesh that `model` (rotations, one uniform scale, a translation) brings into
     /// the world and `transform` into clip space. `towards_light` is in world space, any length;
-    /// `ambient` and `diffuse` are brightnesses, clamped to `[0, 1]`. `None` where the light has no
-    /// direction.
-    #[must_use]
+    /// `ambient` and `diffuse` are brightnesses, clamped to `[0, 1]`.
+    ///
+    /// # Errors
+    ///
+    /// [`MatrixError::Light`] where the light has no direction, or `model` leaves none of it.
     pub fn new(
         transform: Mat4,
         model: &Mat4,
         towards_light: Vec3,
         ambient: I16F16,
         diffuse: I16F16,
-    ) -> Option<Self> {
-        let light = model.unturn(towards_light)?.map(|v| low(shr_round(v / 127, 9)));
+    ) -> Result<Self, MatrixError> {
+        let light = model.unturn(towards_light).ok_or(MatrixError::Light)?;
+        let light = light.map(|v| low(shr_round(v / 127, 9)));
         let brightness = |v: I16F16| v.to_bits().clamp(0, 1 << 16);
         let (ambient, diffuse) = (brightness(ambient), brightness(diffuse));
-        Some(Self { transform, light, ambient, diffuse })
+        Ok(Self { transform, light, ambient, diffuse })
     }
 
     /// Brightness of a normal, Q16 in `[0, 1]`.
@@ -111,6 +114,6 @@ mod tests {
     fn a_light_needs_a_direction() {
         let dark =
             Lit::new(Mat4::IDENTITY, &Mat4::IDENTITY, [I16F16::ZERO; 3], I16F16::ONE, I16F16::ONE);
-        assert!(dark.is_none());
+        assert_eq!(dark.err(), Some(MatrixError::Light));
     }
 }

@@ -1,6 +1,7 @@
 //! The viewport: how large the picture is, where in the buffer it lies, and what part may be drawn.
 
 use crate::math::Scale;
+use fixed::types::I16F16;
 
 /// A rectangle of pixels: `x0 <= x < x1`, `y0 <= y < y1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +111,14 @@ impl Viewport {
         self.height as u32
     }
 
+    /// Width by height, as [`Mat4::perspective`](crate::Mat4::perspective) takes it: 1/512 to 512,
+    /// rounded down to 2^-16.
+    #[inline]
+    #[must_use]
+    pub const fn aspect(&self) -> I16F16 {
+        I16F16::from_bits((self.width << 16) / self.height)
+    }
+
     /// The part of the scissor that a `width x height` buffer holds, in the viewport's pixels.
     #[inline]
     pub(crate) fn visible(&self, width: u32, height: u32) -> Rect {
@@ -149,6 +158,16 @@ mod tests {
         assert!(Viewport::new(0, 1).is_err());
         let error = Viewport::new(240, 513).unwrap_err();
         assert_eq!(error.to_string(), "a viewport of 240 x 513 pixels: sides are 1 to 512");
+    }
+
+    #[test]
+    fn aspect_is_width_by_height() {
+        let aspect = |w, h| Viewport::new(w, h).unwrap().aspect();
+        assert_eq!(aspect(320, 240), I16F16::from_bits(4 * 65_536 / 3));
+        assert_eq!(
+            (aspect(512, 1), aspect(1, 512)),
+            (I16F16::from_num(512), I16F16::from_bits(128))
+        );
     }
 
     #[test]

@@ -3,5 +3,11 @@
 //! Everything here is data in flash and integer code: no allocation, and no floating point after compilation.
 #![no_std]
 
+pub mod checksum;
+pub mod ground;
+pub mod pictures;
+pub mod spinning_teapot;
 pub mod teapot;
 pub mod texture;
+pub mod torus;
+mod trigonometry;

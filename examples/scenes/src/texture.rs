@@ -20,14 +20,8 @@ const JOINT: i32 = -46;
 const LIT_EDGE: i32 = 16;
 const SHADED_EDGE: i32 = -18;
 
-const _: () = assert!(
-    SIZE.is_power_of_two(),
-    "a texture coordinate wraps with a mask"
-);
-const _: () = assert!(
-    SIZE % (2 * TILE) == 0,
-    "the checker does not repeat without a seam"
-);
+const _: () = assert!(SIZE.is_power_of_two(), "a texture coordinate wraps with a mask");
+const _: () = assert!(SIZE % (2 * TILE) == 0, "the checker does not repeat without a seam");
 
 const fn ground() -> [u16; SIZE * SIZE] {
     let mut texels = [0; SIZE * SIZE];
@@ -49,11 +43,7 @@ const fn texel(x: usize, y: usize) -> u16 {
     let veins = noise(x, y, 16) / 8 + noise(x, y, 8) / 16;
     let light = tint + veins + edge(x % TILE, y % TILE);
     // Light tilts the hue a little: the veins are warm.
-    rgb565([
-        stone[0] + light + veins / 4,
-        stone[1] + light,
-        stone[2] + light - veins / 4,
-    ])
+    rgb565([stone[0] + light + veins / 4, stone[1] + light, stone[2] + light - veins / 4])
 }
 
 /// The bevel and the joint of a tile, in 8-bit steps, at a place within the tile.
@@ -76,12 +66,7 @@ const fn noise(x: usize, y: usize, cell: usize) -> i32 {
     let (right, bottom) = ((left + 1) % n, (top + 1) % n);
     let (part_x, part_y) = (x % cell, y % cell);
     let above = mix(corner(left, top, n), corner(right, top, n), part_x, cell);
-    let below = mix(
-        corner(left, bottom, n),
-        corner(right, bottom, n),
-        part_x,
-        cell,
-    );
+    let below = mix(corner(left, bottom, n), corner(right, bottom, n), part_x, cell);
     mix(above, below, part_y, cell)
 }
 

@@ -30,10 +30,7 @@ const MIDDLE: f64 = 3.15 / 2.0;
 /// No vertex: the sample has none yet, or none was found.
 const NO_VERTEX: u16 = u16::MAX;
 
-const _: () = assert!(
-    SAMPLE_COUNT < NO_VERTEX as usize,
-    "a vertex index does not fit u16"
-);
+const _: () = assert!(SAMPLE_COUNT < NO_VERTEX as usize, "a vertex index does not fit u16");
 
 /// A point of the surface with its outward normal, in the formats of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,10 +59,8 @@ pub(super) const fn sample_all() -> [Sample; SAMPLE_COUNT] {
         let row = (within / SIDE) as f64 / SEGMENTS as f64;
         let column = (within % SIDE) as f64 / SEGMENTS as f64;
         let (point, normal) = surface(at / PATCH_SAMPLES, row, column);
-        samples[at] = Sample {
-            position: quantize_position(point),
-            normal: quantize_normal(normal),
-        };
+        samples[at] =
+            Sample { position: quantize_position(point), normal: quantize_normal(normal) };
         at += 1;
     }
     samples
@@ -111,12 +106,7 @@ const fn bernstein(t: f64) -> [f64; 4] {
 /// The derivatives of the four cubic Bernstein polynomials at `t`.
 const fn bernstein_slope(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
-    [
-        -3.0 * s * s,
-        3.0 * s * (s - 2.0 * t),
-        3.0 * t * (2.0 * s - t),
-        3.0 * t * t,
-    ]
+    [-3.0 * s * s, 3.0 * s * (s - 2.0 * t), 3.0 * t * (2.0 * s - t), 3.0 * t * t]
 }
 
 const fn dot([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> f64 {
@@ -142,37 +132,22 @@ const fn square_root(value: f64) -> f64 {
 
 /// The nearest integer, halves away from zero, saturating (`f64::round` is not `const` in the oldest supported Rust).
 const fn round_to_i16(value: f64) -> i16 {
-    if value < 0.0 {
-        (value - 0.5) as i16
-    } else {
-        (value + 0.5) as i16
-    }
+    if value < 0.0 { (value - 0.5) as i16 } else { (value + 0.5) as i16 }
 }
 
 const fn quantize_position([x, y, z]: [f64; 3]) -> [i16; 3] {
     let one = (1_u32 << FRACTION_BITS) as f64;
-    [
-        round_to_i16(x * one),
-        round_to_i16(y * one),
-        round_to_i16(z * one),
-    ]
+    [round_to_i16(x * one), round_to_i16(y * one), round_to_i16(z * one)]
 }
 
 const fn quantize_normal(normal: [f64; 3]) -> [i8; 3] {
     let scale = NORMAL_ONE as f64 / square_root(dot(normal, normal));
     let [x, y, z] = normal;
-    [
-        round_to_i16(x * scale) as i8,
-        round_to_i16(y * scale) as i8,
-        round_to_i16(z * scale) as i8,
-    ]
+    [round_to_i16(x * scale) as i8, round_to_i16(y * scale) as i8, round_to_i16(z * scale) as i8]
 }
 
 impl Sample {
-    const ZERO: Self = Self {
-        position: [0; 3],
-        normal: [0; 3],
-    };
+    const ZERO: Self = Self { position: [0; 3], normal: [0; 3] };
 
     /// Whether two samples are one vertex: the same position and the same normal.
     const fn is(&self, other: &Self) -> bool {

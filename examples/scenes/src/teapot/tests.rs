@@ -36,11 +36,7 @@ fn open_edges() -> Vec<(u16, u16)> {
             assert!(edges.insert(edge), "{edge:?} twice in one direction");
         }
     }
-    edges
-        .iter()
-        .copied()
-        .filter(|&(from, to)| !edges.contains(&(to, from)))
-        .collect()
+    edges.iter().copied().filter(|&(from, to)| !edges.contains(&(to, from))).collect()
 }
 
 #[test]
@@ -58,10 +54,8 @@ fn indices_are_in_range_and_every_vertex_is_used() {
 
 #[test]
 fn no_triangle_is_degenerate() {
-    let smallest = TRIANGLES
-        .iter()
-        .map(|&t| dot(face(t), face(t)).sqrt() / 2.0)
-        .fold(f64::INFINITY, f64::min);
+    let smallest =
+        TRIANGLES.iter().map(|&t| dot(face(t), face(t)).sqrt() / 2.0).fold(f64::INFINITY, f64::min);
     // In square model units; the smallest are on the lip of the spout.
     assert!(smallest > 2.8e-4, "{smallest}");
 }
@@ -118,9 +112,7 @@ fn normals_agree_with_faces_but_on_the_lip_of_the_spout() {
 #[test]
 fn poles_point_up_and_down() {
     let at = |wanted: [i16; 3]| {
-        let found: Vec<_> = (0..VERTEX_COUNT)
-            .filter(|&v| POSITIONS[v] == wanted)
-            .collect();
+        let found: Vec<_> = (0..VERTEX_COUNT).filter(|&v| POSITIONS[v] == wanted).collect();
         assert_eq!(found.len(), 1, "{wanted:?}");
         NORMALS[found[0]]
     };
@@ -172,9 +164,7 @@ fn positions_are_on_the_patches() {
             let (row, column) = (f64::from(step / 5) / 4.0, f64::from(step % 5) / 4.0);
             let exact = de_casteljau(patch, row, column).map(|c| c * 4096.0);
             let here = all.iter().find(|p| {
-                p.iter()
-                    .zip(exact)
-                    .all(|(&p, e)| (f64::from(p) - e).abs() <= 0.5 + 1e-9)
+                p.iter().zip(exact).all(|(&p, e)| (f64::from(p) - e).abs() <= 0.5 + 1e-9)
             });
             assert!(here.is_some(), "patch {patch} at {row} {column}: {exact:?}");
             found.extend(here.copied());

@@ -1,0 +1,173 @@
+//! Building and emulating firmware: rustup's targets where they are installed, else Debian's
+//! toolchain with `core` built from source.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// An emulated machine that a firmware runs on.
+#[derive(Clone, Copy, Debug)]
+pub struct Machine {
+    /// Short name of the instruction set: `m0`, `m4f`, `rv32imc` and so on.
+    pub isa: &'static str,
+    /// Rust's target triple.
+    pub target: &'static str,
+    /// The emulator and its arguments, up to the path of the program.
+    pub emulator: &'static [&'static str],
+    /// Debian's package that brings the emulator.
+    pub package: &'static str,
+}
+
+const fn arm(
+    isa: &'static str,
+    target: &'static str,
+    emulator: &'static [&'static str],
+) -> Machine {
+    Machine { isa, target, emulator, package: "qemu-system-arm" }
+}
+
+/// The arguments of an Arm MPS2 board: instructions counted, output through semihosting.
+macro_rules! mps2 {
+    ($board:literal) => {
+        &[
+            "qemu-system-arm",
+            "-M",
+            $board,
+            "-nographic",
+            "-monitor",
+            "none",
+            "-serial",
+            "none",
+            "-icount",
+            "shift=0",
+            "-semihosting-config",
+            "enable=on,target=native",
+            "-kernel",
+        ]
+    };
+}
+
+/// The emulated machines, one an instruction set.
+pub const MACHINES: [Machine; 6] = [
+    arm("m0", "thumbv6m-none-eabi", mps2!("mps2-an385")),
+    arm("m3", "thumbv7m-none-eabi", mps2!("mps2-an385")),
+    arm("m4f", "thumbv7em-none-eabihf", mps2!("mps2-an386")),
+    arm("m7", "thumbv7em-none-eabihf", mps2!("mps2-an500")),
+    arm("m33", "thumbv8m.main-none-eabihf", mps2!("mps2-an505")),
+    Machine {
+        isa: "rv32imc",
+        target: "riscv32imc-unknown-none-elf",
+        emulator: &[
+            "qemu-system-riscv32",
+            "-M",
+            "virt",
+            "-cpu",
+            "rv32,a=off,f=off,d=off",
+            "-m",
+            "16M",
+            "-bios",
+            "none",
+            "-nographic",
+            "-monitor",
+            "none",
+            "-serial",
+            "none",
+            "-icount",
+            "shift=0",
+            "-semihosting-config",
+            "enable=on,target=native",
+            "-kernel",
+        ],
+        package: "qemu-system-misc",
+    },
+];
+
+/// The folder of the workspace.
+#[must_use]
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Where firmware is built: one folder for all boards.
+#[must_use]
+pub fn target_folder() -> PathBuf {
+    let base = std::env::var_os("CARGO_TARGET_DIR");
+    base.map_or_else(|| root().join("target"), PathBuf::from).join("boards")
+}
+
+/// What a command printed, or why it failed.
+///
+/// # Errors
+///
+/// A sentence that names the command, where it cannot be started or fails.
+pub fn run(command: &mut Command) -> Result<String, String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let output = command.output().map_err(|error| format!("{name}: {error}"))?;
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    if output.status.success() {
+        Ok(text(&output.stdout))
+    } else {
+        Err(format!("{name} failed ({}):\n{}", output.status, text(&output.stderr)))
+    }
+}
+
+/// A `cargo` command that builds for a bare-metal target.
+///
+/// # Errors
+///
+/// What to install, where no toolchain on this machine has the target.
+pub fn cargo(verb: &str, target: &str) -> Result<Command, String> {
+    let sysroot = run(Command::new("rustc").args(["--print", "sysroot"]))?;
+    let mut command = Command::new("cargo");
+    if Path::new(sysroot.trim()).join("lib/rustlib").join(target).is_dir() {
+        command.arg(verb);
+    } else if Path::new("/usr/bin/cargo").exists() && source_of_core().is_dir() {
+        command = Command::new("/usr/bin/cargo");
+        command.env("RUSTC", "/usr/bin/rustc").env("RUSTC_BOOTSTRAP", "1");
+        // Flags and wrappers of the caller's toolchain are not this one's.
+        command.env_remove("RUSTUP_TOOLCHAIN").env_remove("RUSTC_WRAPPER");
+        command.args([verb, "-Z", "build-std=core"]);
+    } else {
+        return Err(format!(
+            "no toolchain for {target}: `rustup target add {target}`, or Debian's packages \
+             rustc-web, cargo-web, rust-web-src and lld"
+        ));
+    }
+    command.args(["--target", target]).env("CARGO_TARGET_DIR", target_folder());
+    Ok(command)
+}
+
+/// Where Debian's toolchain keeps the source of `core`.
+fn source_of_core() -> PathBuf {
+    let sysroot = run(Command::new("/usr/bin/rustc").args(["--print", "sysroot"]));
+    let sysroot = sysroot.unwrap_or_default();
+    Path::new(sysroot.trim()).join("lib/rustlib/src/rust/library/core")
+}
+
+/// Builds a board's firmware for a target; the path of the program.
+///
+/// # Errors
+///
+/// The toolchain's or the compiler's words.
+pub fn build(board: &str, program: &str, target: &str) -> Result<PathBuf, String> {
+    let mut command = cargo("build", target)?;
+    command.args(["--release", "--bin", program]).current_dir(root().join("boards").join(board));
+    run(&mut command)?;
+    Ok(target_folder().join(target).join("release").join(program))
+}
+
+/// Runs a program on a machine until it ends; what it printed.
+///
+/// # Errors
+///
+/// The emulator's words, or the package that brings it.
+pub fn emulate(machine: &Machine, program: &Path) -> Result<String, String> {
+    let [emulator, arguments @ ..] = machine.emulator else {
+        return Err(format!("{} has no emulator", machine.isa));
+    };
+    let mut command = Command::new("timeout");
+    command.args(["120", emulator]).args(arguments).arg(program);
+    run(&mut command).map_err(|error| match Command::new(emulator).arg("--version").output() {
+        Ok(_) => error,
+        Err(_) => format!("{emulator} is missing: Debian's package {} brings it", machine.package),
+    })
+}

@@ -1,0 +1,161 @@
+//! From a triangle that is set up to pixels: spans, blocks of them, and the pixel loop.
+
+use super::Frame;
+use crate::clip::ClipEdges;
+use crate::depth::{DepthPlane, DepthRun, DepthTest};
+use crate::fragment::{Fragment, Sample};
+use crate::framebuffer::{Target, run};
+use crate::interpolation::{BLOCK, Correction, Mode, Run, Varyings};
+use crate::setup::{Setup, Tier};
+use crate::span::Span;
+use crate::traversal::Spans;
+use crate::vertex::Rect;
+use fixed::types::I16F16;
+
+/// What a triangle's pixels are made from, once it is set up.
+pub(super) struct Shading<'a, F, const N: usize> {
+    pub(super) fragment: &'a F,
+    /// There unless `N` is 0.
+    pub(super) varyings: Option<Varyings<N>>,
+    /// There where depth is kept.
+    pub(super) depth: Option<DepthPlane>,
+}
+
+impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
+where
+    C: Target,
+    D: DepthTest,
+    T: Tier,
+    I: Correction,
+{
+    /// Draws what a part covers of a box.
+    #[inline]
+    pub(super) fn draw_part<F, const N: usize>(
+        &mut self,
+        setup: &Setup,
+        bounds: Rect,
+        clip: Option<&ClipEdges<P>>,
+        shading: &Shading<'_, F, N>,
+    ) where
+        F: Fragment<C::Color, N>,
+    {
+        let length = match &shading.varyings {
+            Some(varyings) if varyings.mode == Mode::Pieces => I::EVERY,
+            Some(varyings) if varyings.mode == Mode::Divided => BLOCK,
+            _ => i32::MAX,
+        };
+        for span in Spans::new(setup, bounds, clip, T::NARROW) {
+            if F::UNIFORM && shading.depth.is_none() && N == 0 {
+                self.fill(span, shading);
+            } else {
+                for block in span.blocks(length) {
+                    self.draw_block(setup, block, shading);
+                }
+            }
+        }
+    }
+
+    /// Fills a span with the shader's one colour.
+    #[inline]
+    fn fill<F, const N: usize>(&mut self, span: Span, shading: &Shading<'_, F, N>)
+    where
+        F: Fragment<C::Color, N>,
+    {
+        let Span { y, x0, x1 } = span;
+        let varyings = [I16F16::ZERO; N];
+        let color = shading.fragment.shade(Sample { x: x0, y, varyings });
+        let (left, top) = self.viewport.origin;
+        let (x, length) = run(x0 + left, x1 + left);
+        let (y, _) = run(y + top, y + top);
+        self.target.fill(x, y, length, color);
+    }
+
+    /// Draws a block: depth and varyings start from the exact edge functions at its first pixel.
+    #[inline]
+    fn draw_block<F, const N: usize>(
+        &mut self,
+        setup: &Setup,
+        block: Span,
+        shading: &Shading<'_, F, N>,
+    ) where
+        F: Fragment<C::Color, N>,
+    {
+        let start = |run: Span| {
+            let edges = setup.edges_at(run.x0, run.y);
+            (edges, shading.depth.map_or(DepthRun::NONE, |plane| plane.run(run, edges)))
+        };
+        let (edges, depth) = start(block);
+        if depth.inside {
+            self.draw_from(setup, block, edges, depth, shading);
+        } else {
+            // Some depth of the block saturates: each pixel by itself.
+            for pixel in block.blocks(1) {
+                let (edges, depth) = start(pixel);
+                self.draw_from(setup, pixel, edges, depth, shading);
+            }
+        }
+    }
+
+    /// Draws a block from its first pixel's edge functions and depth, by the way its varyings run.
+    #[inline]
+    fn draw_from<F, const N: usize>(
+        &mut self,
+        setup: &Setup,
+        block: Span,
+        edges: [i64; 3],
+        depth: DepthRun,
+        shading: &Shading<'_, F, N>,
+    ) where
+        F: Fragment<C::Color, N>,
+    {
+        match &shading.varyings {
+            None => self.draw_run(block, NoVaryings, depth, shading.fragment),
+            Some(v) if v.mode == Mode::Divided && I::EVERY == 1 => {
+                self.draw_run(block, v.divided(edges), depth, shading.fragment);
+            }
+            Some(v) => self.draw_run(block, v.ramp(setup, block, edges), depth, shading.fragment),
+        }
+    }
+
+    /// The pixel loop: test, shade what passes, write.
+    #[inline]
+    fn draw_run<F, R, const N: usize>(
+        &mut self,
+        block: Span,
+        mut varyings: R,
+        depth: DepthRun,
+        fragment: &F,
+    ) where
+        F: Fragment<C::Color, N>,
+        R: Run<N>,
+    {
+        let Span { y, x0, x1 } = block;
+        let (left, top) = self.viewport.origin;
+        let (first, length) = run(x0 + left, x1 + left);
+        let (row, _) = run(y + top, y + top);
+        let (running, step) = depth.running();
+        let tests = self.depth.test(x0 + left, y + top, x1 - x0, running, step);
+        let mut x = x0;
+        let colors = tests.take(length).map(|passes| {
+            let color =
+                passes.then(|| fragment.shade(Sample { x, y, varyings: varyings.varyings() }));
+            varyings.step();
+            x += 1;
+            color
+        });
+        self.target.write(first, row, colors);
+    }
+}
+
+/// No varyings to step along.
+struct NoVaryings;
+
+impl<const N: usize> Run<N> for NoVaryings {
+    #[inline]
+    fn varyings(&self) -> [I16F16; N] {
+        [I16F16::ZERO; N]
+    }
+
+    #[inline]
+    fn step(&mut self) {}
+}
