@@ -12,6 +12,9 @@
 //! scale drops are 2^-61 of the largest. So a pixel may be decided wrongly only where the exact
 //! `n . p` is within 2^-28 of the largest `|n . p_i|` of the triangle's vertices; the contract asks
 //! for 2^-12. Only triangles that cross a plane pay.
+//!
+//! `p_i` is the vertex that came in, before it was snapped; but the hither plane looks at the snapped
+//! `w`, which is what `1 / w` is interpolated from. On the exact tier's grid both are the same.
 
 use crate::math::{Scale, Signed, align, combine};
 use crate::setup::Setup;

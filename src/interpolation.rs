@@ -4,7 +4,7 @@
 //! where `E_i >= 0` are the edge functions, `k_i > 0` the vertices' scales, and
 //! `sum(beta_i) = h / w = q` (Olano & Greer 1997, section 4.1 and equation 4: `1/w` is set up from
 //! `[k_i]`, an attribute from `[k_i u_i]`). So every weight is in `[0, 1]`, for any signs of the
-//! vertices' `w`, and `u = u_0 + sum((u_i - u_0) beta_i) / q` stays between the vertices' values.
+//! vertices' `w`, and `u = u_0 + sum((u_i - u_0) beta_i) / q` is between the vertices' values.
 //! Affine (section 6, equation 5) takes `[k_i w_i u_i]` instead: then `q` is 1.
 //!
 //! Formats: weights Q32 in `i64`; `q` and the numerators `n` Q30 in `i32`, where `n` is in units of
@@ -17,7 +17,8 @@
 //! - a pixel's step is rounded to 2^-31, so 63 steps add 2^-25 to `n` and to `q`;
 //! - both divided by `q`: 2 (2^-25 + 2^-30) / 2^-12 < 2^-11.9; the reciprocal adds 2^-29.
 //!
-//! That is a quarter of the contract's 2^-10. Farther than 4096 hither distances it grows with `w`.
+//! That is a quarter of the contract's 2^-10. Farther than 4096 hither distances it grows with `w`,
+//! up to the clamp: `n / q` in `[-1, 1]` keeps a value within `2^e` of `u_0` whatever happens.
 
 use crate::clip::{Hither, WRange};
 use crate::math::{Scale, low, reciprocal, saturate, shr_round};

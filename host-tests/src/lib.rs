@@ -1,3 +1,8 @@
 //! Oracles and shared parts of the tests and measuring commands.
 
+pub mod accuracy;
+pub mod cross;
+pub mod dump;
 pub mod oracle;
+pub mod record;
+pub mod snapped;

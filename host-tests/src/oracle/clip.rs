@@ -1,8 +1,8 @@
 //! On which side of a clip plane the surface at a pixel lies, by exact arithmetic.
 //!
-//! Row `i` of the vertex matrix is `k_i (x_i, y_i, w_i)` (up to snapping), so the surface point that is seen at pixel `P` is
-//! `sum(k_i E_i p_i) / sum(k_i E_i)` with `E_i = e_i . P`, and a plane's value there is
-//! `sum(k_i E_i c_i) / sum(k_i E_i)` with `c_i = n . p_i`.
+//! Row `i` of the vertex matrix is `k_i (x_i, y_i, w_i)` (up to snapping), so the surface point
+//! that is seen at pixel `P` is `sum(k_i E_i p_i) / sum(k_i E_i)` with `E_i = e_i . P`, and a
+//! plane's value there is `sum(k_i E_i c_i) / sum(k_i E_i)` with `c_i = n . p_i`.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -40,11 +40,7 @@ impl PlaneFunction {
     pub fn new(surface: &Surface, values: &[BigRational; 3]) -> Self {
         let (numerator, above) = surface.combination(values);
         let (denominator, below) = surface.combination(&super::whole([1, 1, 1]));
-        let largest = values
-            .iter()
-            .map(Signed::abs)
-            .max()
-            .unwrap_or_else(BigRational::zero);
+        let largest = values.iter().map(Signed::abs).max().unwrap_or_else(BigRational::zero);
         let factor = above / below;
         Self {
             numerator,
@@ -61,8 +57,8 @@ impl PlaneFunction {
         &self.largest
     }
 
-    /// The plane's value `n . p` at the surface point seen at pixel `(x, y)`, in the units of the vertices' values. `None`
-    /// where the surface goes to infinity, which is at no covered pixel.
+    /// The plane's value `n . p` at the surface point seen at pixel `(x, y)`, in the units of the
+    /// vertices' values. `None` where the surface goes to infinity, which is at no covered pixel.
     #[must_use]
     pub fn value(&self, x: u32, y: u32) -> Option<BigRational> {
         let denominator = self.denominator.at(x, y);
@@ -184,11 +180,7 @@ mod tests {
                     value if value < -&band => PlaneSide::Outside,
                     _ => PlaneSide::Near,
                 });
-                assert_eq!(
-                    plane.side_within(x, y, &band),
-                    expected,
-                    "{corners:?} {x} {y}"
-                );
+                assert_eq!(plane.side_within(x, y, &band), expected, "{corners:?} {x} {y}");
                 if let Some(side) = expected {
                     seen[side as usize] += 1;
                 }

@@ -1,7 +1,8 @@
 //! Closed meshes round, beside and before the eye.
 //!
-//! Clip space without its z is the eye's own space: the eye is at `x = y = w = 0` and looks along `w`. So a solid is put there
-//! directly, turned at random, and rounded to the grid. Every mesh here must meet `Invariant::Closed`.
+//! Clip space without its z is the eye's own space: the eye is at `x = y = w = 0` and looks along
+//! `w`. So a solid is put there directly, turned at random, and rounded to the grid. Every mesh
+//! here must meet `Invariant::Closed`.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +16,8 @@ pub enum Solid {
     Tetrahedron,
     /// 12 triangles.
     Cube,
-    /// 32 to 512 triangles: an octahedron divided one to three times, each vertex at a random distance from the middle.
+    /// 32 to 512 triangles: an octahedron divided one to three times, each vertex at a random
+    /// distance from the middle.
     Star,
     /// 96 to 600 triangles round a hole.
     Torus,
@@ -31,7 +33,8 @@ impl Solid {
 pub enum Eye {
     /// Outside, the whole solid in front of it.
     Outside,
-    /// Outside, the solid beside it and on both sides of the eye plane; also in the hole of a torus.
+    /// Outside, the solid beside it and on both sides of the eye plane; also in the hole of a
+    /// torus.
     Beside,
     /// Inside.
     Inside,
@@ -44,7 +47,8 @@ impl Eye {
 
 type Point = [f64; 3];
 
-/// A solid within the unit sphere round the origin, faces counter-clockwise from outside in right-handed axes.
+/// A solid within the unit sphere round the origin, faces counter-clockwise from outside in
+/// right-handed axes.
 struct Model {
     points: Vec<Point>,
     faces: Vec<[usize; 3]>,
@@ -67,7 +71,8 @@ pub fn closed(solid: Solid, eye: Eye, rng: &mut Rng) -> Mesh {
         Eye::Inside => [0, 1, 2].map(|i| nearby[i] - apply(&turn, model.inside)[i]),
         Eye::Beside if in_hole => nearby,
         Eye::Beside => {
-            // So far ahead that the solid still reaches behind the eye plane, and so far away that the eye is outside.
+            // So far ahead that the solid still reaches behind the eye plane, and so far away that
+            // the eye is outside.
             let behind = |point: &Point| -apply(&turn, *point)[2];
             let ahead = rng.between(0.0, 0.9) * model.points.iter().map(behind).fold(0.0, f64::max);
             let distance = rng.between(1.1, 1.35);
@@ -77,15 +82,12 @@ pub fn closed(solid: Solid, eye: Eye, rng: &mut Rng) -> Mesh {
         }
         Eye::Outside => {
             let ahead = rng.between(1.5, 4.0);
-            [
-                rng.between(-0.5, 0.5) * ahead,
-                rng.between(-0.5, 0.5) * ahead,
-                ahead,
-            ]
+            [rng.between(-0.5, 0.5) * ahead, rng.between(-0.5, 0.5) * ahead, ahead]
         }
     };
-    // Past 2^17 a corner (at most 5 units away, times the focal length) could leave the grid of 2^20; below 2^8 the
-    // rounding would no longer be small beside the 0.03 units that the eye is clear of the surface.
+    // Past 2^17 a corner (at most 5 units away, times the focal length) could leave the grid of
+    // 2^20; below 2^8 the rounding would no longer be small beside the 0.03 units that the eye is
+    // clear of the surface.
     let size = rng.magnitude(1 << 17).max(1 << 8) as f64;
     let focal = rng.between(0.6, 1.5);
     let stretch = [size * focal, size * focal, size];
@@ -94,11 +96,10 @@ pub fn closed(solid: Solid, eye: Eye, rng: &mut Rng) -> Mesh {
         [0, 1, 2].map(|i| (stretch[i] * (turned[i] + offset[i])).round() as i64)
     };
     let directions: Vec<_> = model.points.iter().map(place).collect();
-    // With w away from the viewer, x, y, w are left-handed: what is counter-clockwise there is clockwise in NDC.
+    // With w away from the viewer, x, y, w are left-handed: what is counter-clockwise there is
+    // clockwise in NDC.
     let triangles = model.faces.iter().map(|&[a, b, c]| [a, c, b]).collect();
-    let invariant = Invariant::Closed {
-        eye_inside: eye == Eye::Inside,
-    };
+    let invariant = Invariant::Closed { eye_inside: eye == Eye::Inside };
     Mesh::from_directions(&directions, triangles, invariant, rng)
 }
 
@@ -120,16 +121,15 @@ fn cube() -> Model {
     for axis in 0..3 {
         let (next, last) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
         let far = 1 << axis;
-        // Corners of the face at +axis, counter-clockwise from outside; the other one the other way.
+        // Corners of the face at +axis, counter-clockwise from outside; the other one the other
+        // way.
         let ring = [far, far + next, far + next + last, far + last];
         faces.extend([[ring[0], ring[1], ring[2]], [ring[0], ring[2], ring[3]]]);
         let ring = ring.map(|corner| corner - far);
         faces.extend([[ring[0], ring[2], ring[1]], [ring[0], ring[3], ring[2]]]);
     }
     Model {
-        points: (0..8)
-            .map(|corner| [0, 1, 2].map(|axis| side(corner, axis)))
-            .collect(),
+        points: (0..8).map(|corner| [0, 1, 2].map(|axis| side(corner, axis))).collect(),
         faces,
         inside: [0.0; 3],
     }
@@ -156,11 +156,7 @@ fn star(rng: &mut Rng) -> Model {
         let radius = rng.between(0.7, 1.0);
         *point = point.map(|value| value * radius);
     }
-    Model {
-        points,
-        faces,
-        inside: [0.0; 3],
-    }
+    Model { points, faces, inside: [0.0; 3] }
 }
 
 /// Each triangle in four, the new points on the unit sphere and shared between neighbours.
@@ -197,11 +193,7 @@ fn torus(rng: &mut Rng) -> Model {
             faces.extend([[a, b, c], [a, c, d]]);
         }
     }
-    Model {
-        points,
-        faces,
-        inside: [0.7, 0.0, 0.0],
-    }
+    Model { points, faces, inside: [0.7, 0.0, 0.0] }
 }
 
 /// A random rotation: three products of plane turns.
@@ -228,8 +220,8 @@ mod tests {
     use crate::oracle::mesh::tests::snapped_triangles;
     use crate::oracle::{ExactTriangle, Part, Vertex, Viewport};
 
-    /// How often a mesh winds round the eye: the solid angles of its triangles (van Oosterom & Strackee 1983, eq. 8)
-    /// over a full sphere, positive where they are counter-clockwise in NDC.
+    /// How often a mesh winds round the eye: the solid angles of its triangles (van Oosterom &
+    /// Strackee 1983, eq. 8) over a full sphere, positive where they are counter-clockwise in NDC.
     fn winding(mesh: &Mesh) -> f64 {
         let solid_angle = |corners: [Vertex; 3]| {
             let [a, b, c] = corners.map(|corner| {
@@ -261,35 +253,19 @@ mod tests {
             let mut edges = std::collections::HashMap::new();
             for &[a, b, c] in &mesh.triangles {
                 for edge in [(a, b), (b, c), (c, a)] {
-                    assert!(
-                        edges.insert(edge, ()).is_none(),
-                        "{what}: edge {edge:?} twice"
-                    );
+                    assert!(edges.insert(edge, ()).is_none(), "{what}: edge {edge:?} twice");
                 }
             }
-            assert!(
-                edges.keys().all(|&(a, b)| edges.contains_key(&(b, a))),
-                "{what}"
-            );
+            assert!(edges.keys().all(|&(a, b)| edges.contains_key(&(b, a))), "{what}");
         });
     }
 
     #[test]
     fn the_eye_is_where_it_is_said_to_be() {
         every_mesh(0..60, |mesh, eye, what| {
-            assert!(
-                mesh.vertices
-                    .iter()
-                    .flatten()
-                    .all(|value| value.abs() <= GRID),
-                "{what}"
-            );
+            assert!(mesh.vertices.iter().flatten().all(|value| value.abs() <= GRID), "{what}");
             let expected = f64::from(mesh.expected_sum());
-            assert!(
-                (winding(mesh) - expected).abs() < 1e-6,
-                "{what}: {}",
-                winding(mesh)
-            );
+            assert!((winding(mesh) - expected).abs() < 1e-6, "{what}: {}", winding(mesh));
             let behind = mesh.vertices.iter().filter(|vertex| vertex[3] < 0).count();
             match eye {
                 Eye::Outside => assert_eq!(behind, 0, "{what}"),
@@ -317,11 +293,7 @@ mod tests {
 
     #[test]
     fn a_snap_keeps_closed_meshes_closed() {
-        for viewport in [
-            Viewport::new(16, 9),
-            Viewport::new(512, 3),
-            Viewport::new(4, 4),
-        ] {
+        for viewport in [Viewport::new(16, 9), Viewport::new(512, 3), Viewport::new(4, 4)] {
             every_mesh(10..16, |mesh, _, what| {
                 for part in Part::ALL {
                     let prepared = snapped_triangles(mesh, viewport, part);
@@ -343,11 +315,7 @@ mod tests {
             let count = prepared.iter().filter(|one| one.covers(x, y)).count();
             let sum: i32 = prepared.iter().map(|one| one.signed_coverage(x, y)).sum();
             assert_eq!(sum, mesh.expected_sum(), "{what} {viewport:?} {x} {y}");
-            assert_eq!(
-                count & 1,
-                sum.unsigned_abs() as usize,
-                "{what} {viewport:?} {x} {y}"
-            );
+            assert_eq!(count & 1, sum.unsigned_abs() as usize, "{what} {viewport:?} {x} {y}");
             covered += usize::from(count > 0);
         }
         covered

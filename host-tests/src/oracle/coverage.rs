@@ -1,10 +1,10 @@
 //! Which pixels a triangle covers, by exact arithmetic.
 //!
-//! With `M` the matrix of the vertices `(x, y, w)`, `d` its determinant and `e_i` the rows of its adjugate, a pixel
-//! centre `P = sum(e_i . P / d * v_i)`. It is covered by the part in front of the eye when every `sign(d) e_i . P` is
-//! positive, or is 0 on a left edge (the function grows to the right) or a top edge (it does not change to the right and
-//! grows downwards). For the part behind the eye the functions are `-sign(d) e_i . P`, with the same rule.
-//! `d = 0` covers nothing.
+//! With `M` the matrix of the vertices `(x, y, w)`, `d` its determinant and `e_i` the rows of its
+//! adjugate, a pixel centre `P = sum(e_i . P / d * v_i)`. It is covered by the part in front of the
+//! eye when every `sign(d) e_i . P` is positive, or is 0 on a left edge (the function grows to the
+//! right) or a top edge (it does not change to the right and grows downwards). For the part behind
+//! the eye the functions are `-sign(d) e_i . P`, with the same rule. `d = 0` covers nothing.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -13,8 +13,8 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use super::linear::{Form, adjugate, dot, over_pixels, to_whole};
 use super::{Part, RationalVertex, Space, Vertex, Viewport};
 
-/// Whether pixel `(x, y)` is covered: the rule word by word in rationals, as plain and slow as it gets
-/// (some microseconds a call).
+/// Whether pixel `(x, y)` is covered: the rule word by word in rationals, as plain and slow as it
+/// gets (some microseconds a call).
 #[must_use]
 pub fn covers_big(
     vertices: &[RationalVertex; 3],
@@ -56,20 +56,23 @@ pub fn covers_big(
     })
 }
 
-/// Largest coordinate, in units of the vertices' scale, that is worked out in `i128` from the start.
+/// Largest coordinate, in units of the vertices' scale, that is worked out in `i128` from the
+/// start.
 ///
-/// Proof, for viewports up to [`NARROW_VIEWPORT`] = 2^10 and coordinates up to 2^40: a minor is the difference of two
-/// products, so at most 2^81; the determinant is the sum of three products of a minor and a coordinate, at most
-/// 3 * 2^121 < 2^123. Over pixels (`over_pixels`) `A` and `B` are at most 2^81 * 2^10 = 2^91, and `C` at
-/// most 3 * 2^81 * 2^20 < 2^103; at a pixel `2X+1 < 2^11`, so a value is at most 2^102 + 2^102 + 2^103 = 2^104. All are
-/// below 2^127. The grid's 2^20, with room for 2^21, is far inside: its minors are below 2^43 and, up to 512 x 512, its
-/// values below 2^52 * 2^10 * 2 + 3 * 2^43 * 2^18 < 2^65.
+/// Proof, for viewports up to [`NARROW_VIEWPORT`] = 2^10 and coordinates up to 2^40: a minor is the
+/// difference of two products, so at most 2^81; the determinant is the sum of three products of a
+/// minor and a coordinate, at most 3 * 2^121 < 2^123. Over pixels (`over_pixels`) `A` and `B` are
+/// at most 2^81 * 2^10 = 2^91, and `C` at most 3 * 2^81 * 2^20 < 2^103; at a pixel `2X+1 < 2^11`,
+/// so a value is at most 2^102 + 2^102 + 2^103 = 2^104. All are below 2^127. The grid's 2^20, with
+/// room for 2^21, is far inside: its minors are below 2^43 and, up to 512 x 512, its values below
+/// 2^52 * 2^10 * 2 + 3 * 2^43 * 2^18 < 2^65.
 const NARROW_COORDINATE: u64 = 1 << 40;
 
 /// Largest viewport side, in pixels, of the proof of [`NARROW_COORDINATE`].
 const NARROW_VIEWPORT: u32 = 1 << 10;
 
-/// A triangle prepared for exact answers about many pixels; some nanoseconds a pixel where `i128` does.
+/// A triangle prepared for exact answers about many pixels; some nanoseconds a pixel where `i128`
+/// does.
 #[derive(Clone, Debug)]
 pub struct ExactTriangle {
     /// Positive inside the part that was asked for.
@@ -88,15 +91,16 @@ impl ExactTriangle {
         Self::from_whole(vertices, Space::Clip, viewport, part)
     }
 
-    /// A triangle with pixel-space vertices: vertex `(px, py, pw)` is at `px/pw` pixels from the left and `py/pw` from
-    /// the top, so that pixel centres are at +1/2. Each vertex may have a positive scale of its own.
+    /// A triangle with pixel-space vertices: vertex `(px, py, pw)` is at `px/pw` pixels from the
+    /// left and `py/pw` from the top, so that pixel centres are at +1/2. Each vertex may have a
+    /// positive scale of its own.
     #[must_use]
     pub fn from_pixel_space(vertices: [Vertex; 3], viewport: Viewport, part: Part) -> Self {
         Self::from_whole(vertices, Space::Pixel, viewport, part)
     }
 
-    /// A triangle with vertices of exact rationals, such as snapped ones. Each is multiplied by the positive number that
-    /// makes it whole, which does not move it on the screen.
+    /// A triangle with vertices of exact rationals, such as snapped ones. Each is multiplied by the
+    /// positive number that makes it whole, which does not move it on the screen.
     #[must_use]
     pub fn from_rationals(
         vertices: &[RationalVertex; 3],
@@ -105,9 +109,7 @@ impl ExactTriangle {
         part: Part,
     ) -> Self {
         let integers = vertices.each_ref().map(|vertex| to_whole(vertex).0);
-        let small = integers
-            .each_ref()
-            .map(|vertex| vertex.each_ref().map(ToPrimitive::to_i64));
+        let small = integers.each_ref().map(|vertex| vertex.each_ref().map(ToPrimitive::to_i64));
         if small.iter().flatten().all(Option::is_some) {
             let vertices = small.map(|vertex| vertex.map(Option::unwrap_or_default));
             return Self::from_whole(vertices, space, viewport, part);
@@ -116,26 +118,14 @@ impl ExactTriangle {
     }
 
     fn from_whole(vertices: [Vertex; 3], space: Space, viewport: Viewport, part: Part) -> Self {
-        let narrow = vertices
-            .iter()
-            .flatten()
-            .all(|value| value.unsigned_abs() <= NARROW_COORDINATE)
-            && viewport.width <= NARROW_VIEWPORT
-            && viewport.height <= NARROW_VIEWPORT;
+        let narrow =
+            vertices.iter().flatten().all(|value| value.unsigned_abs() <= NARROW_COORDINATE)
+                && viewport.width <= NARROW_VIEWPORT
+                && viewport.height <= NARROW_VIEWPORT;
         if narrow {
-            Self::narrow(
-                &vertices.map(|vertex| vertex.map(i128::from)),
-                space,
-                viewport,
-                part,
-            )
+            Self::narrow(&vertices.map(|vertex| vertex.map(i128::from)), space, viewport, part)
         } else {
-            Self::wide(
-                &vertices.map(|vertex| vertex.map(BigInt::from)),
-                space,
-                viewport,
-                part,
-            )
+            Self::wide(&vertices.map(|vertex| vertex.map(BigInt::from)), space, viewport, part)
         }
     }
 
@@ -179,8 +169,8 @@ impl ExactTriangle {
             })
     }
 
-    /// The facing: 1 where the determinant in clip space is positive (counter-clockwise in NDC where all `w > 0`),
-    /// -1 where it is negative, 0 where the triangle covers nothing.
+    /// The facing: 1 where the determinant in clip space is positive (counter-clockwise in NDC
+    /// where all `w > 0`), -1 where it is negative, 0 where the triangle covers nothing.
     #[must_use]
     pub fn orientation(&self) -> i32 {
         self.orientation

@@ -42,7 +42,8 @@ fn a_right_triangle_leaves_its_bottom_right_edge_to_the_other_half() {
 
 #[test]
 fn corners_on_pixel_centres_follow_the_top_left_rule() {
-    // Top edge along the centres of row 1, from column 1 to column 6; apex on the centre of row 6, column 1.
+    // Top edge along the centres of row 1, from column 1 to column 6; apex on the centre of row 6,
+    // column 1.
     assert_eq!(
         picture([[3, 3], [13, 3], [3, 13]]),
         [
@@ -62,8 +63,9 @@ fn corners_on_pixel_centres_follow_the_top_left_rule() {
 
 #[test]
 fn a_steep_triangle_as_drawn_by_hand() {
-    // Apex (1, 0), right (7, 4), bottom (2, 8), in pixels. Row y's centre line is at y + 1/2: the left edge is at
-    // x = 1 + (y+1/2)/8, the right one at 1 + 3/2 (y+1/2) down to y = 4 and 7 - 5/4 (y-7/2) from there.
+    // Apex (1, 0), right (7, 4), bottom (2, 8), in pixels. Row y's centre line is at y + 1/2: the
+    // left edge is at x = 1 + (y+1/2)/8, the right one at 1 + 3/2 (y+1/2) down to y = 4 and 7 - 5/4
+    // (y-7/2) from there.
     assert_eq!(
         picture([[2, 0], [14, 8], [4, 16]]),
         [
@@ -114,11 +116,7 @@ fn an_edge_at_infinity_bounds_nothing() {
     let exact = ExactTriangle::new(corners, EIGHT, Part::Front);
     assert_eq!(exact.pixels().len(), 16);
     assert!(exact.covers(7, 0) && exact.covers(4, 3));
-    assert!(
-        ExactTriangle::new(corners, EIGHT, Part::Behind)
-            .pixels()
-            .is_empty()
-    );
+    assert!(ExactTriangle::new(corners, EIGHT, Part::Behind).pixels().is_empty());
 }
 
 #[test]
@@ -166,21 +164,13 @@ fn positive_scales_of_vertices_change_nothing() {
         let scales = [(); 3].map(|()| rng.magnitude(1 << 40));
         let scaled = [0, 1, 2].map(|i| corners[i].map(|value| value * scales[i]));
         let scaled = ExactTriangle::new(scaled, viewport, part);
-        assert_eq!(
-            plain.pixels(),
-            scaled.pixels(),
-            "{category:?} {corners:?} {scales:?}"
-        );
+        assert_eq!(plain.pixels(), scaled.pixels(), "{category:?} {corners:?} {scales:?}");
         let thirds = [0, 1, 2].map(|i| {
             let scale = rational(scales[i], 3);
             whole(corners[i]).map(|value| value / &scale)
         });
         let thirds = ExactTriangle::from_rationals(&thirds, Space::Clip, viewport, part);
-        assert_eq!(
-            plain.pixels(),
-            thirds.pixels(),
-            "{category:?} {corners:?} {scales:?}"
-        );
+        assert_eq!(plain.pixels(), thirds.pixels(), "{category:?} {corners:?} {scales:?}");
         assert_eq!(plain.orientation(), thirds.orientation());
     }
 }
@@ -198,15 +188,8 @@ fn the_fast_way_agrees_with_the_plain_one() {
             let through = ExactTriangle::from_rationals(&rationals, Space::Clip, viewport, part);
             for place in places(&exact, viewport, &mut rng) {
                 let expected = covers_big(&rationals, Space::Clip, viewport, part, place);
-                let answers = (
-                    exact.covers(place.0, place.1),
-                    through.covers(place.0, place.1),
-                );
-                assert_eq!(
-                    answers,
-                    (expected, expected),
-                    "{corners:?} {viewport:?} {place:?}"
-                );
+                let answers = (exact.covers(place.0, place.1), through.covers(place.0, place.1));
+                assert_eq!(answers, (expected, expected), "{corners:?} {viewport:?} {place:?}");
             }
         }
     }
@@ -235,16 +218,8 @@ fn pixel_space_agrees_with_the_plain_way_at_its_extremes() {
         let corners: [Vertex; 3] = [(); 3].map(|()| match rng.below(4) {
             0 => [rng.signed(1 << 18), rng.signed(1 << 18), 256],
             1 => [rng.signed(1 << 14), rng.signed(1 << 14), 16],
-            2 => [
-                rng.choose(&[-1, 1]) << 26,
-                rng.choose(&[-1, 1]) << 26,
-                rng.signed(1 << 26),
-            ],
-            _ => [
-                rng.signed(1 << 24),
-                rng.signed(1 << 24),
-                rng.signed(1 << 15),
-            ],
+            2 => [rng.choose(&[-1, 1]) << 26, rng.choose(&[-1, 1]) << 26, rng.signed(1 << 26)],
+            _ => [rng.signed(1 << 24), rng.signed(1 << 24), rng.signed(1 << 15)],
         });
         let part = Part::ALL[round & 1];
         let exact = ExactTriangle::from_pixel_space(corners, viewport, part);
@@ -272,11 +247,7 @@ fn the_narrow_range_has_no_overflow_at_its_ends() {
             let exact = ExactTriangle::from_whole(corners, space, viewport, Part::Front);
             for place in [(0, 0), (1023, 0), (0, 1023), (1023, 1023), (511, 512)] {
                 let expected = covers_big(&corners.map(whole), space, viewport, Part::Front, place);
-                assert_eq!(
-                    exact.covers(place.0, place.1),
-                    expected,
-                    "{corners:?} {place:?}"
-                );
+                assert_eq!(exact.covers(place.0, place.1), expected, "{corners:?} {place:?}");
             }
         }
     }
@@ -286,9 +257,7 @@ fn the_narrow_range_has_no_overflow_at_its_ends() {
 fn clip(polygon: &[RationalVertex], plane: [i64; 3]) -> Vec<RationalVertex> {
     let plane = whole(plane);
     let side = |point: &RationalVertex| {
-        (0..3)
-            .map(|i| &plane[i] * &point[i])
-            .fold(BigRational::zero(), |sum, term| sum + term)
+        (0..3).map(|i| &plane[i] * &point[i]).fold(BigRational::zero(), |sum, term| sum + term)
     };
     let mut clipped = Vec::new();
     for (i, point) in polygon.iter().enumerate() {
@@ -306,7 +275,8 @@ fn clip(polygon: &[RationalVertex], plane: [i64; 3]) -> Vec<RationalVertex> {
     clipped
 }
 
-/// The pixels of a convex polygon given by its screen corners in pixels, y down, by the top-left rule.
+/// The pixels of a convex polygon given by its screen corners in pixels, y down, by the top-left
+/// rule.
 fn fill(corners: &[[BigRational; 2]], viewport: Viewport) -> Vec<(u32, u32)> {
     let area = (0..corners.len()).fold(BigRational::zero(), |sum, i| {
         let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
@@ -322,7 +292,8 @@ fn fill(corners: &[[BigRational; 2]], viewport: Viewport) -> Vec<(u32, u32)> {
             let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
             let (right, down) = ((&b[0] - &a[0]) * &sign, (&b[1] - &a[1]) * &sign);
             let value = &right * (&centre[1] - &a[1]) - &down * (&centre[0] - &a[0]);
-            // With y down and a positive area the inside is to the right of travel: left edges go up, top edges go right.
+            // With y down and a positive area the inside is to the right of travel: left edges go
+            // up, top edges go right.
             let top_left = down.is_negative() || (down.is_zero() && right.is_positive());
             let point = down.is_zero() && right.is_zero();
             point || value.is_positive() || (value.is_zero() && top_left)
@@ -331,7 +302,8 @@ fn fill(corners: &[[BigRational; 2]], viewport: Viewport) -> Vec<(u32, u32)> {
     viewport.pixels().filter(covered).collect()
 }
 
-/// Coverage by clipping to a frustum twice as wide as the screen, dividing by w, and filling the polygon.
+/// Coverage by clipping to a frustum twice as wide as the screen, dividing by w, and filling the
+/// polygon.
 fn by_clipping(corners: [Vertex; 3], viewport: Viewport) -> Vec<(u32, u32)> {
     let mut polygon = corners.map(whole).to_vec();
     for plane in [[-1, 0, 2], [1, 0, 2], [0, -1, 2], [0, 1, 2]] {
@@ -363,18 +335,10 @@ fn external_triangles_cover_what_clipping_leaves_of_them() {
             continue;
         }
         let expected = by_clipping(corners, viewport);
-        assert_eq!(
-            exact.pixels(),
-            expected,
-            "{category:?} {corners:?} {viewport:?}"
-        );
+        assert_eq!(exact.pixels(), expected, "{category:?} {corners:?} {viewport:?}");
         let behind = ExactTriangle::new(corners, viewport, Part::Behind);
         let negated = corners.map(|corner| corner.map(|value| -value));
-        assert_eq!(
-            behind.pixels(),
-            by_clipping(negated, viewport),
-            "{category:?} {corners:?}"
-        );
+        assert_eq!(behind.pixels(), by_clipping(negated, viewport), "{category:?} {corners:?}");
         covered += expected.len();
     }
     assert!(covered > 3000, "{covered}");
@@ -382,19 +346,14 @@ fn external_triangles_cover_what_clipping_leaves_of_them() {
 
 #[test]
 fn a_triangle_with_one_vertex_behind_the_eye_as_drawn_by_hand() {
-    // Two corners on the screen's bottom line and one behind the eye, whose mirror image is at the middle of the top: in
-    // front of the eye the sides run down from that line, away from the image, so nothing is on the screen.
+    // Two corners on the screen's bottom line and one behind the eye, whose mirror image is at the
+    // middle of the top: in front of the eye the sides run down from that line, away from the
+    // image, so nothing is on the screen.
     let corners = [[-1, -1, 1], [1, -1, 1], [0, -1, -1]];
-    assert_eq!(
-        ExactTriangle::new(corners, EIGHT, Part::Front).orientation(),
-        -1
-    );
-    assert!(
-        ExactTriangle::new(corners, EIGHT, Part::Front)
-            .pixels()
-            .is_empty()
-    );
-    // With the line at half height, from (-1/2, 0) to (1/2, 0), the part in front is the strip below it, widening.
+    assert_eq!(ExactTriangle::new(corners, EIGHT, Part::Front).orientation(), -1);
+    assert!(ExactTriangle::new(corners, EIGHT, Part::Front).pixels().is_empty());
+    // With the line at half height, from (-1/2, 0) to (1/2, 0), the part in front is the strip
+    // below it, widening.
     let corners = [[-1, 0, 2], [1, 0, 2], [0, -1, -1]];
     assert_eq!(
         ExactTriangle::new(corners, EIGHT, Part::Front).picture(),

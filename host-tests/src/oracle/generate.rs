@@ -1,6 +1,7 @@
 //! Seeded random triangles and viewports that are hard on a rasterizer.
 //!
-//! All vertices are `(x, y, w)` in clip space, whole numbers of one scale within [`GRID`]. Callers print the seed.
+//! All vertices are `(x, y, w)` in clip space, whole numbers of one scale within [`GRID`]. Callers
+//! print the seed.
 
 use super::{Rng, Vertex, Viewport};
 
@@ -82,15 +83,13 @@ pub fn random_viewport(rng: &mut Rng) -> Viewport {
     let (width, height) = match rng.below(3) {
         0 => rng.choose(&NAMED),
         1 => (rng.range(1, 16) as u32, rng.range(1, 16) as u32),
-        _ => (
-            rng.range(1, i64::from(SIDE)) as u32,
-            rng.range(1, i64::from(SIDE)) as u32,
-        ),
+        _ => (rng.range(1, i64::from(SIDE)) as u32, rng.range(1, i64::from(SIDE)) as u32),
     };
     Viewport::new(width, height)
 }
 
-/// A random triangle of a category, its vertices in random order, for a viewport of up to 512 x 512.
+/// A random triangle of a category, its vertices in random order, for a viewport of up to 512 x
+/// 512.
 pub fn triangle(category: Category, viewport: Viewport, rng: &mut Rng) -> [Vertex; 3] {
     let mut corners = match category {
         Category::OnScreen => each(rng, on_screen),
@@ -118,21 +117,17 @@ pub fn triangle(category: Category, viewport: Viewport, rng: &mut Rng) -> [Verte
     corners
 }
 
-/// A clip-space whole multiple of the centre of pixel `(x, y)`, or with `odd = 0` of its top left corner, `w` being
-/// `multiple` times [`centre_step`].
+/// A clip-space whole multiple of the centre of pixel `(x, y)`, or with `odd = 0` of its top left
+/// corner, `w` being `multiple` times [`centre_step`].
 #[must_use]
 pub fn pixel_vertex(viewport: Viewport, (x, y): (i64, i64), odd: i64, multiple: i64) -> Vertex {
     let (width, height) = (i64::from(viewport.width), i64::from(viewport.height));
     let w = centre_step(viewport) * multiple;
-    [
-        (2 * x + odd - width) * (w / width),
-        (height - 2 * y - odd) * (w / height),
-        w,
-    ]
+    [(2 * x + odd - width) * (w / width), (height - 2 * y - odd) * (w / height), w]
 }
 
-/// The least `w`, in grid units, at which all pixel centres and corners of a viewport are whole: the least common multiple
-/// of its sides.
+/// The least `w`, in grid units, at which all pixel centres and corners of a viewport are whole:
+/// the least common multiple of its sides.
 #[must_use]
 pub fn centre_step(viewport: Viewport) -> i64 {
     let (width, height) = (i64::from(viewport.width), i64::from(viewport.height));
@@ -161,19 +156,14 @@ fn anything(rng: &mut Rng) -> Vertex {
     [(); 3].map(|()| rng.signed(GRID))
 }
 
-/// Two vertices in line with a pixel centre, or next to that line, and a third one few grid steps off it.
+/// Two vertices in line with a pixel centre, or next to that line, and a third one few grid steps
+/// off it.
 fn sliver(viewport: Viewport, rng: &mut Rng) -> [Vertex; 3] {
     let step = centre_step(viewport);
     let most = (GRID / 4 / step).max(1);
-    let multiple = if rng.once_in(2) {
-        most
-    } else {
-        rng.magnitude(most)
-    };
-    let place = (
-        rng.below(u64::from(viewport.width)) as i64,
-        rng.below(u64::from(viewport.height)) as i64,
-    );
+    let multiple = if rng.once_in(2) { most } else { rng.magnitude(most) };
+    let place =
+        (rng.below(u64::from(viewport.width)) as i64, rng.below(u64::from(viewport.height)) as i64);
     let [centre_x, centre_y, w] = pixel_vertex(viewport, place, 1, multiple);
     let (raw_x, raw_y) = match rng.below(8) {
         0 => (1, 0),
@@ -182,7 +172,8 @@ fn sliver(viewport: Viewport, rng: &mut Rng) -> [Vertex; 3] {
     };
     let [divisor, ..] = extended_gcd(raw_x, raw_y);
     let (along_x, along_y) = (raw_x / divisor, raw_y / divisor);
-    // (off_x, off_y) is one lattice line beside the direction: along_x * off_y - along_y * off_x = 1.
+    // (off_x, off_y) is one lattice line beside the direction: along_x * off_y - along_y * off_x =
+    // 1.
     let [_, off_y, minus_off_x] = extended_gcd(along_x, along_y);
     let (off_x, off_y) = (-minus_off_x, off_y);
     let longest = along_x.abs().max(along_y.abs());
@@ -195,11 +186,7 @@ fn sliver(viewport: Viewport, rng: &mut Rng) -> [Vertex; 3] {
         (beside * off_y).div_euclid(along_y)
     };
     let third = rng.range(-before, after) - back;
-    let nudge = if rng.once_in(2) {
-        [0, 0]
-    } else {
-        [rng.range(-1, 1), rng.range(-1, 1)]
-    };
+    let nudge = if rng.once_in(2) { [0, 0] } else { [rng.range(-1, 1), rng.range(-1, 1)] };
     let at = |steps: i64, beside: i64| {
         let x = centre_x + steps * along_x + beside * off_x + nudge[0];
         let y = centre_y + steps * along_y + beside * off_y + nudge[1];
@@ -210,11 +197,7 @@ fn sliver(viewport: Viewport, rng: &mut Rng) -> [Vertex; 3] {
 
 fn degenerate(rng: &mut Rng) -> [Vertex; 3] {
     let anywhere = |rng: &mut Rng| {
-        if rng.once_in(2) {
-            on_screen(rng)
-        } else {
-            anything(rng)
-        }
+        if rng.once_in(2) { on_screen(rng) } else { anything(rng) }
     };
     let (first, second) = (anywhere(rng), anywhere(rng));
     let halved = first.map(|value| value / 2);
@@ -227,12 +210,10 @@ fn degenerate(rng: &mut Rng) -> [Vertex; 3] {
         5 => [[(); 3]; 3].map(|vertex| vertex.map(|()| 0)),
         6 => unit_determinant(rng),
         _ => {
-            // In line on the screen: the third is a whole combination of the others, or one grid step beside it.
+            // In line on the screen: the third is a whole combination of the others, or one grid
+            // step beside it.
             let (a, b) = (rng.range(-7, 7), rng.range(-7, 7));
-            let (first, second) = (
-                first.map(|value| value / 16),
-                second.map(|value| value / 16),
-            );
+            let (first, second) = (first.map(|value| value / 16), second.map(|value| value / 16));
             let mut third = [0, 1, 2].map(|i| a * first[i] + b * second[i]);
             if rng.once_in(2) {
                 third[rng.below(3) as usize] += rng.choose(&[-1, 1]);
@@ -259,43 +240,22 @@ fn unit_determinant(rng: &mut Rng) -> [Vertex; 3] {
 fn mixed_sign_w(rng: &mut Rng) -> [Vertex; 3] {
     let third = rng.signed(GRID);
     [rng.magnitude(GRID), -rng.magnitude(GRID), third].map(|w: i64| {
-        let reach = if rng.once_in(2) {
-            (2 * w.abs()).clamp(1, GRID)
-        } else {
-            GRID
-        };
+        let reach = if rng.once_in(2) { (2 * w.abs()).clamp(1, GRID) } else { GRID };
         [rng.signed(reach), rng.signed(reach), w]
     })
 }
 
 fn zero_w(rng: &mut Rng) -> [Vertex; 3] {
     let count = 1 + rng.below(3) as usize;
-    let mut corners = if rng.once_in(2) {
-        each(rng, on_screen)
-    } else {
-        each(rng, anything)
-    };
-    corners
-        .iter_mut()
-        .take(count)
-        .for_each(|corner| corner[2] = 0);
+    let mut corners = if rng.once_in(2) { each(rng, on_screen) } else { each(rng, anything) };
+    corners.iter_mut().take(count).for_each(|corner| corner[2] = 0);
     corners
 }
 
 fn edge_at_infinity(rng: &mut Rng) -> [Vertex; 3] {
     let nearness = rng.range(0, 2);
-    let far = |rng: &mut Rng| {
-        [
-            rng.signed(GRID),
-            rng.signed(GRID),
-            rng.range(-nearness, nearness),
-        ]
-    };
-    let near = if rng.once_in(4) {
-        anything(rng)
-    } else {
-        on_screen(rng)
-    };
+    let far = |rng: &mut Rng| [rng.signed(GRID), rng.signed(GRID), rng.range(-nearness, nearness)];
+    let near = if rng.once_in(4) { anything(rng) } else { on_screen(rng) };
     [far(rng), far(rng), near]
 }
 
@@ -328,7 +288,8 @@ fn huge_ratio(rng: &mut Rng) -> [Vertex; 3] {
     })
 }
 
-/// `[g, s, t]` with `s a + t b = g`, the greatest common divisor of `a` and `b` (positive unless both are 0).
+/// `[g, s, t]` with `s a + t b = g`, the greatest common divisor of `a` and `b` (positive unless
+/// both are 0).
 fn extended_gcd(a: i64, b: i64) -> [i64; 3] {
     let (mut old, mut new) = ([a, 1, 0], [b, 0, 1]);
     while new[0] != 0 {
@@ -336,11 +297,7 @@ fn extended_gcd(a: i64, b: i64) -> [i64; 3] {
         let rest = [0, 1, 2].map(|i| old[i] - quotient * new[i]);
         (old, new) = (new, rest);
     }
-    if old[0] < 0 {
-        old.map(|value| -value)
-    } else {
-        old
-    }
+    if old[0] < 0 { old.map(|value| -value) } else { old }
 }
 
 #[cfg(test)]
@@ -370,10 +327,7 @@ mod tests {
                     "{category:?} {corners:?}"
                 );
                 let same = random_viewport(&mut again);
-                assert_eq!(
-                    (viewport, corners),
-                    (same, triangle(category, same, &mut again))
-                );
+                assert_eq!((viewport, corners), (same, triangle(category, same, &mut again)));
             }
         }
     }
@@ -389,9 +343,7 @@ mod tests {
             let pixels = f64::from(viewport.width * viewport.height) / 8.0;
             let area = determinant(corners).abs() as f64 / (w * w * w) * pixels;
             let is_thin = area > 0.0 && area <= 2f64.powi(-16);
-            let covers = !ExactTriangle::new(corners, viewport, Part::Front)
-                .pixels()
-                .is_empty();
+            let covers = !ExactTriangle::new(corners, viewport, Part::Front).pixels().is_empty();
             thin += i32::from(is_thin);
             covering += i32::from(is_thin && covers);
         }
@@ -428,14 +380,8 @@ mod tests {
             let [px, py, pw] = viewport.direction(x as u32, y as u32);
             assert_eq!((vx * pw, vy * pw), (px * vw, py * vw));
         }
-        assert_eq!(
-            pixel_vertex(Viewport::new(4, 6), (0, 0), 0, 2),
-            [-24, 24, 24]
-        );
-        assert_eq!(
-            pixel_vertex(Viewport::new(4, 6), (4, 6), 0, 1),
-            [12, -12, 12]
-        );
+        assert_eq!(pixel_vertex(Viewport::new(4, 6), (0, 0), 0, 2), [-24, 24, 24]);
+        assert_eq!(pixel_vertex(Viewport::new(4, 6), (4, 6), 0, 1), [12, -12, 12]);
     }
 
     #[test]

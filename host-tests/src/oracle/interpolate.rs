@@ -1,8 +1,10 @@
-//! Attributes, `1/w` and depth at a pixel: exact integers up to the last division, which is in `f64`.
+//! Attributes, `1/w` and depth at a pixel: exact integers up to the last division, which is in
+//! `f64`.
 //!
-//! Row `i` of the vertex matrix is `k_i (x_i, y_i, w_i)` with `k_i > 0` (up to snapping). Then `P = sum(E_i / d * row_i)` with
-//! `E_i = e_i . P`, and with `S(c) = sum(k_i c_i E_i) / d`, linear on the screen:
-//! `1/w = S(1)`, `z/w = S(z)`, an attribute is `S(u) / S(1)`, and `S(w u)` is `u` interpolated without perspective.
+//! Row `i` of the vertex matrix is `k_i (x_i, y_i, w_i)` with `k_i > 0` (up to snapping). Then
+//! `P = sum(E_i / d * row_i)` with `E_i = e_i . P`, and with `S(c) = sum(k_i c_i E_i) / d`, linear
+//! on the screen: `1/w = S(1)`, `z/w = S(z)`, an attribute is `S(u) / S(1)`, and `S(w u)` is `u`
+//! interpolated without perspective.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -23,16 +25,16 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// A triangle with clip-space vertices `(x, y, w)` in whole units; `w` in those units is what `1/w` is of. `None` where
-    /// the determinant is 0.
+    /// A triangle with clip-space vertices `(x, y, w)` in whole units; `w` in those units is what
+    /// `1/w` is of. `None` where the determinant is 0.
     #[must_use]
     pub fn new(vertices: [Vertex; 3], viewport: Viewport) -> Option<Self> {
         let scales = whole([1, 1, 1]);
         Self::from_rationals(&vertices.map(whole), &scales, Space::Clip, viewport)
     }
 
-    /// A triangle whose matrix row `i` is `vertices[i]`, which is (up to snapping) `scales[i]` times the true vertex.
-    /// `None` where the determinant is 0.
+    /// A triangle whose matrix row `i` is `vertices[i]`, which is (up to snapping) `scales[i]`
+    /// times the true vertex. `None` where the determinant is 0.
     #[must_use]
     pub fn from_rationals(
         vertices: &[RationalVertex; 3],
@@ -48,11 +50,7 @@ impl Surface {
         if divisor.is_zero() {
             return None;
         }
-        Some(Self {
-            edges: rows.map(|row| over_pixels(&row, space, viewport)),
-            scales,
-            divisor,
-        })
+        Some(Self { edges: rows.map(|row| over_pixels(&row, space, viewport)), scales, divisor })
     }
 
     /// The whole function and the factor whose product is `S(values) * scale * d`.
@@ -68,11 +66,7 @@ impl Surface {
         let (form, factor) = self.combination(values);
         let factor = factor / &self.divisor;
         let factor_f64 = factor.to_f64().unwrap_or(f64::NAN);
-        ScreenFunction {
-            form,
-            factor,
-            factor_f64,
-        }
+        ScreenFunction { form, factor, factor_f64 }
     }
 
     /// `1/w` of the surface; negative on the part behind the eye.
@@ -93,15 +87,11 @@ impl Surface {
         let (numerator, above) = self.combination(u);
         let (denominator, below) = self.combination(&whole([1, 1, 1]));
         let factor = (above / below).to_f64().unwrap_or(f64::NAN);
-        PerspectiveFunction {
-            numerator,
-            denominator,
-            factor,
-        }
+        PerspectiveFunction { numerator, denominator, factor }
     }
 
-    /// The attribute that is `u[i]` where vertex `i` is on the screen, interpolated straight over the screen; `w[i]` are
-    /// the true vertices' (meaningful where all are positive).
+    /// The attribute that is `u[i]` where vertex `i` is on the screen, interpolated straight over
+    /// the screen; `w[i]` are the true vertices' (meaningful where all are positive).
     #[must_use]
     pub fn affine(&self, u: &[BigRational; 3], w: &[BigRational; 3]) -> ScreenFunction {
         self.linear(&[0, 1, 2].map(|i| &u[i] * &w[i]))
@@ -139,16 +129,17 @@ pub struct PerspectiveFunction {
 }
 
 impl PerspectiveFunction {
-    /// The value at the centre of pixel `(x, y)`; relative error at most 2^-50 (five roundings). Not finite where the
-    /// surface goes to infinity, which is at no covered pixel.
+    /// The value at the centre of pixel `(x, y)`; relative error at most 2^-50 (five roundings).
+    /// Not finite where the surface goes to infinity, which is at no covered pixel.
     #[must_use]
     pub fn at(&self, x: u32, y: u32) -> f64 {
         self.numerator.at_f64(x, y) / self.denominator.at_f64(x, y) * self.factor
     }
 }
 
-/// The scale `k` for which `k * given` is nearest to `snapped` (least squares): exact where the snapped vertex is a multiple
-/// of the given one, else off by as much as the vertex was moved, relative to its length. 1 for a zero vertex.
+/// The scale `k` for which `k * given` is nearest to `snapped` (least squares): exact where the
+/// snapped vertex is a multiple of the given one, else off by as much as the vertex was moved,
+/// relative to its length. 1 for a zero vertex.
 #[must_use]
 pub fn scale_of(snapped: &RationalVertex, given: &RationalVertex) -> BigRational {
     let length = dot(given, given);
@@ -175,7 +166,8 @@ mod tests {
 
     #[test]
     fn a_wall_facing_the_eye_interpolates_straight() {
-        // Pixel (X, Y) of 8 x 8 has x_ndc = (2X+1)/8 - 1; the attribute is x_ndc + 2 y_ndc, times 8.
+        // Pixel (X, Y) of 8 x 8 has x_ndc = (2X+1)/8 - 1; the attribute is x_ndc + 2 y_ndc, times
+        // 8.
         let viewport = Viewport::new(8, 8);
         let corners = [[-4, -4, 4], [4, -4, 4], [-4, 4, 4]];
         let surface = Surface::new(corners, viewport).expect("not degenerate");
@@ -203,11 +195,7 @@ mod tests {
         for (x, y) in ExactTriangle::new(corners, viewport, Part::Front).pixels() {
             let x_ndc = f64::from(2 * x + 1) / 12.0 - 1.0;
             let y_ndc = 1.0 - f64::from(2 * y + 1) / 10.0;
-            assert!(near(
-                surface.attribute(&along).at(x, y),
-                -1.0 / y_ndc,
-                1e-14
-            ));
+            assert!(near(surface.attribute(&along).at(x, y), -1.0 / y_ndc, 1e-14));
             let error = surface.attribute(&across).at(x, y) + x_ndc / y_ndc;
             assert!(error.abs() < 1e-13);
             assert!(near(surface.reciprocal_w().at(x, y), -y_ndc, 1e-14));
@@ -218,7 +206,8 @@ mod tests {
 
     #[test]
     fn the_affine_reference_meets_the_attribute_at_the_vertices() {
-        // Vertices on the centres of pixels (0, 0), (3, 0) and (0, 3) of 4 x 4, with three different w.
+        // Vertices on the centres of pixels (0, 0), (3, 0) and (0, 3) of 4 x 4, with three
+        // different w.
         let viewport = Viewport::new(4, 4);
         let corners = [[-3, 3, 4], [30, 30, 40], [-75, -75, 100]];
         let surface = Surface::new(corners, viewport).expect("not degenerate");
@@ -226,17 +215,10 @@ mod tests {
         let affine = surface.affine(&u, &whole([4, 40, 100]));
         for (i, (x, y)) in [(0, 0), (3, 0), (0, 3)].into_iter().enumerate() {
             assert_eq!(affine.exact(x, y), u[i]);
-            assert!(near(
-                surface.attribute(&u).at(x, y),
-                u[i].to_f64().expect("finite"),
-                1e-14
-            ));
+            assert!(near(surface.attribute(&u).at(x, y), u[i].to_f64().expect("finite"), 1e-14));
         }
         // A third of the way along the top edge the affine value is a third of the way.
-        assert_eq!(
-            affine.exact(1, 0),
-            (&u[0] * rational(2, 1) + &u[1]) / rational(3, 1)
-        );
+        assert_eq!(affine.exact(1, 0), (&u[0] * rational(2, 1) + &u[1]) / rational(3, 1));
     }
 
     #[test]
@@ -252,10 +234,7 @@ mod tests {
         let z = whole([5, -6, 7]);
         for (x, y) in viewport.pixels() {
             assert_eq!(clip.depth(&z).exact(x, y), pixel.depth(&z).exact(x, y));
-            assert_eq!(
-                clip.reciprocal_w().exact(x, y),
-                pixel.reciprocal_w().exact(x, y)
-            );
+            assert_eq!(clip.reciprocal_w().exact(x, y), pixel.reciprocal_w().exact(x, y));
         }
     }
 
@@ -278,10 +257,7 @@ mod tests {
                 let y = rng.below(u64::from(viewport.height)) as u32;
                 if exact.covers(x, y) {
                     let value = attribute.at(x, y);
-                    assert!(
-                        (-3.0..=40.0).contains(&value),
-                        "{corners:?} {x} {y} {value}"
-                    );
+                    assert!((-3.0..=40.0).contains(&value), "{corners:?} {x} {y} {value}");
                     let ahead = reciprocal_w.at(x, y) > 0.0;
                     assert_eq!(ahead, part == Part::Front, "{corners:?} {x} {y}");
                 }
@@ -309,16 +285,10 @@ mod tests {
                 (value - exact).abs() * BigInt::from(1_u64 << bits) <= exact.abs()
             };
             let exact = linear.exact(x, y);
-            assert!(
-                is_within(linear.at(x, y), &exact, 51),
-                "{corners:?} {x} {y}"
-            );
+            assert!(is_within(linear.at(x, y), &exact, 51), "{corners:?} {x} {y}");
             if !reciprocal_w.exact(x, y).is_zero() {
                 let exact = exact / reciprocal_w.exact(x, y);
-                assert!(
-                    is_within(attribute.at(x, y), &exact, 50),
-                    "{corners:?} {x} {y}"
-                );
+                assert!(is_within(attribute.at(x, y), &exact, 50), "{corners:?} {x} {y}");
             }
         }
     }

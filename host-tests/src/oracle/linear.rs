@@ -37,11 +37,7 @@ impl Viewport {
     #[must_use]
     pub fn direction(self, x: u32, y: u32) -> [i64; 3] {
         let (w, h) = (i64::from(self.width), i64::from(self.height));
-        [
-            (2 * i64::from(x) + 1 - w) * h,
-            (h - 2 * i64::from(y) - 1) * w,
-            w * h,
-        ]
+        [(2 * i64::from(x) + 1 - w) * h, (h - 2 * i64::from(y) - 1) * w, w * h]
     }
 }
 
@@ -80,11 +76,7 @@ where
     T: Sub<Output = T>,
     for<'a> &'a T: Mul<&'a T, Output = T>,
 {
-    [
-        &a[1] * &b[2] - &a[2] * &b[1],
-        &a[2] * &b[0] - &a[0] * &b[2],
-        &a[0] * &b[1] - &a[1] * &b[0],
-    ]
+    [&a[1] * &b[2] - &a[2] * &b[1], &a[2] * &b[0] - &a[0] * &b[2], &a[0] * &b[1] - &a[1] * &b[0]]
 }
 
 /// The dot product `a . b`.
@@ -96,8 +88,8 @@ where
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-/// The rows of the adjugate of the matrix with the three vertices as columns: row `i` is zero on the
-/// edge opposite to vertex `i`, and is the determinant at vertex `i`.
+/// The rows of the adjugate of the matrix with the three vertices as columns: row `i` is zero on
+/// the edge opposite to vertex `i`, and is the determinant at vertex `i`.
 pub(super) fn adjugate<T>(vertices: &[[T; 3]; 3]) -> [[T; 3]; 3]
 where
     T: Sub<Output = T>,
@@ -107,9 +99,10 @@ where
     [cross(v1, v2), cross(v2, v0), cross(v0, v1)]
 }
 
-/// The coefficients `[A, B, C]` of `scale * row . P` as a function `A (2X+1) + B (2Y+1) + C` of the pixel,
-/// `scale` being [`pixel_scale`]. Derivation, clip space: `P = (x_ndc, y_ndc, 1)` times `W H` is
-/// `((2X+1-W) H, (H-(2Y+1)) W, W H)`; pixel space: `P = (X+1/2, Y+1/2, 1)` times 2 is `(2X+1, 2Y+1, 2)`.
+/// The coefficients `[A, B, C]` of `scale * row . P` as a function `A (2X+1) + B (2Y+1) + C` of the
+/// pixel, `scale` being [`pixel_scale`]. Derivation, clip space: `P = (x_ndc, y_ndc, 1)` times
+/// `W H` is `((2X+1-W) H, (H-(2Y+1)) W, W H)`; pixel space: `P = (X+1/2, Y+1/2, 1)` times 2 is
+/// `(2X+1, 2Y+1, 2)`.
 pub(super) fn over_pixels<T>(row: &[T; 3], space: Space, viewport: Viewport) -> [T; 3]
 where
     T: Clone + From<i64> + Add<Output = T> + Sub<Output = T> + Neg<Output = T>,
@@ -141,9 +134,7 @@ pub(super) fn to_whole(vertex: &[BigRational; 3]) -> ([BigInt; 3], BigRational) 
     for value in vertex {
         denominator *= value.denom() / gcd(&denominator, value.denom());
     }
-    let mut integers = vertex
-        .clone()
-        .map(|value| (value * &denominator).to_integer());
+    let mut integers = vertex.clone().map(|value| (value * &denominator).to_integer());
     let divisor = gcd(&gcd(&integers[0], &integers[1]), &integers[2]);
     if !divisor.is_zero() {
         integers.iter_mut().for_each(|value| *value /= &divisor);
@@ -164,8 +155,8 @@ fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
 /// A linear function `A (2X+1) + B (2Y+1) + C` over the pixels with whole coefficients `[A, B, C]`.
 #[derive(Clone, Debug)]
 pub(super) enum Form {
-    /// Coefficients below 2^100 in magnitude: over pixels below 2^16 (so `2X+1 < 2^17`) each product is
-    /// below 2^117 and the sum below 2^119.
+    /// Coefficients below 2^100 in magnitude: over pixels below 2^16 (so `2X+1 < 2^17`) each
+    /// product is below 2^117 and the sum below 2^119.
     Narrow([i128; 3]),
     /// Any coefficients.
     Wide([BigInt; 3]),
@@ -175,9 +166,7 @@ impl Form {
     /// The narrow form where it fits.
     pub(super) fn new(coefficients: [BigInt; 3]) -> Self {
         if coefficients.iter().all(|value| value.bits() <= 100) {
-            let narrow = coefficients
-                .clone()
-                .map(|value| value.to_i128().unwrap_or_default());
+            let narrow = coefficients.clone().map(|value| value.to_i128().unwrap_or_default());
             return Self::Narrow(narrow);
         }
         Self::Wide(coefficients)
@@ -219,10 +208,7 @@ impl Form {
 }
 
 fn narrow_at(form: &[i128; 3], x: u32, y: u32) -> i128 {
-    debug_assert!(
-        x < 1 << 16 && y < 1 << 16,
-        "pixel ({x}, {y}) is past the proof"
-    );
+    debug_assert!(x < 1 << 16 && y < 1 << 16, "pixel ({x}, {y}) is past the proof");
     form[0] * (2 * i128::from(x) + 1) + form[1] * (2 * i128::from(y) + 1) + form[2]
 }
 
@@ -280,10 +266,7 @@ mod tests {
             assert_eq!(narrow.at_f64(x, y), wide.at_f64(x, y));
         }
         let large: BigInt = BigInt::from(1) << 100;
-        assert!(matches!(
-            Form::new([large.clone(), large.clone(), large]),
-            Form::Wide(_)
-        ));
+        assert!(matches!(Form::new([large.clone(), large.clone(), large]), Form::Wide(_)));
     }
 
     #[test]

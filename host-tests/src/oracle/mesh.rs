@@ -1,7 +1,8 @@
 //! Meshes that must be watertight: flat ones and fans. Closed ones are in `closed`.
 //!
-//! Each mesh says which invariant it must meet. The invariants are about the *snapped* triangles and hold after any
-//! snap that moves a vertex little, because a pixel's count depends only on the directions of the vertices from the eye.
+//! Each mesh says which invariant it must meet. The invariants are about the *snapped* triangles
+//! and hold after any snap that moves a vertex little, because a pixel's count depends only on the
+//! directions of the vertices from the eye.
 
 use std::f64::consts::TAU;
 
@@ -12,14 +13,15 @@ use super::{Part, Rng, Vertex, Viewport};
 /// What the coverages of a mesh's triangles must add up to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Invariant {
-    /// On every pixel for which [`Mesh::is_interior`] holds, the signed coverages add up to 1, and one triangle covers it
-    /// unless the snap changed some triangle's facing. These are the front parts where the pixel's direction is inside this
-    /// cone (its corners `(x, y, w)`, convex), and the parts behind the eye where the opposite direction is. The
-    /// cone ends inside the mesh's border, far enough for the rounding of the border's vertices.
+    /// On every pixel for which [`Mesh::is_interior`] holds, the signed coverages add up to 1, and
+    /// one triangle covers it unless the snap changed some triangle's facing. These are the front
+    /// parts where the pixel's direction is inside this cone (its corners `(x, y, w)`, convex), and
+    /// the parts behind the eye where the opposite direction is. The cone ends inside the mesh's
+    /// border, far enough for the rounding of the border's vertices.
     CoversOnce(Vec<Vertex>),
-    /// The mesh is closed, and its faces are counter-clockwise in NDC seen from outside. On every pixel, and for
-    /// either part, seen from outside an even number of triangles covers it and the signed coverages add up to 0; seen from
-    /// inside an odd number does and they add up to -1.
+    /// The mesh is closed, and its faces are counter-clockwise in NDC seen from outside. On every
+    /// pixel, and for either part, seen from outside an even number of triangles covers it and the
+    /// signed coverages add up to 0; seen from inside an odd number does and they add up to -1.
     Closed {
         /// Whether the eye, at `x = y = w = 0`, is inside.
         eye_inside: bool,
@@ -33,8 +35,9 @@ pub struct Mesh {
     pub vertices: Vec<[i64; 4]>,
     /// Three vertex indices each.
     pub triangles: Vec<[usize; 3]>,
-    /// A distance of a hither plane, in grid units of `w`, for those who want one; `z = w - hither`. With the plane
-    /// `CoversOnce` holds where the surface is farther than that, beyond the plane's band; `Closed` does not hold.
+    /// A distance of a hither plane, in grid units of `w`, for those who want one;
+    /// `z = w - hither`. With the plane `CoversOnce` holds where the surface is farther than that,
+    /// beyond the plane's band; `Closed` does not hold.
     pub hither: i64,
     /// What must hold.
     pub invariant: Invariant,
@@ -55,8 +58,8 @@ impl Mesh {
         (0..self.triangles.len()).map(|index| self.corners(index))
     }
 
-    /// Whether the invariant says something about pixel `(x, y)` for this part: the pixel's whole square is inside
-    /// the cone, so that a snap by a fraction of a pixel does not matter.
+    /// Whether the invariant says something about pixel `(x, y)` for this part: the pixel's whole
+    /// square is inside the cone, so that a snap by a fraction of a pixel does not matter.
     #[must_use]
     pub fn is_interior(&self, viewport: Viewport, part: Part, (x, y): (u32, u32)) -> bool {
         let Invariant::CoversOnce(cone) = &self.invariant else {
@@ -68,20 +71,13 @@ impl Mesh {
         });
         // Half a pixel is 1 / W and 1 / H in NDC, and directions are W H times that.
         let half = [viewport.height, viewport.width].map(i128::from);
-        let square = [(-1, -1), (1, -1), (-1, 1), (1, 1)].map(|(right, up)| {
-            [
-                centre[0] + right * half[0],
-                centre[1] + up * half[1],
-                centre[2],
-            ]
-        });
+        let square = [(-1, -1), (1, -1), (-1, 1), (1, 1)]
+            .map(|(right, up)| [centre[0] + right * half[0], centre[1] + up * half[1], centre[2]]);
         let corner = |index: usize| cone[index % cone.len()].map(i128::from);
         let turning = dot(&cross(&corner(0), &corner(1)), &corner(2)).signum();
         (0..cone.len()).all(|index| {
             let side = cross(&corner(index), &corner(index + 1));
-            square
-                .iter()
-                .all(|direction| dot(&side, direction).signum() == turning)
+            square.iter().all(|direction| dot(&side, direction).signum() == turning)
         })
     }
 
@@ -103,16 +99,9 @@ impl Mesh {
     ) -> Self {
         let farthest = directions.iter().map(|&[_, _, w]| w).max();
         let hither = rng.magnitude(farthest.unwrap_or(1).max(2) / 2);
-        let vertices = directions
-            .iter()
-            .map(|&[x, y, w]| [x, y, (w - hither).max(-GRID), w])
-            .collect();
-        Self {
-            vertices,
-            triangles,
-            hither,
-            invariant,
-        }
+        let vertices =
+            directions.iter().map(|&[x, y, w]| [x, y, (w - hither).max(-GRID), w]).collect();
+        Self { vertices, triangles, hither, invariant }
     }
 }
 
@@ -123,8 +112,8 @@ pub enum Sheet {
     Facing,
     /// Slanted, nearest and farthest `w` up to 1 : 2000 apart; covers the whole viewport.
     Tilted,
-    /// A plane beside the eye that runs from behind it to far ahead: the front parts cover one side of a horizon, the
-    /// parts behind the eye the other.
+    /// A plane beside the eye that runs from behind it to far ahead: the front parts cover one side
+    /// of a horizon, the parts behind the eye the other.
     ThroughEye,
 }
 
@@ -133,7 +122,8 @@ impl Sheet {
     pub const ALL: [Self; 3] = [Self::Facing, Self::Tilted, Self::ThroughEye];
 }
 
-/// A flat mesh: a jittered grid of 6 x 6 to 16 x 16 cells with random diagonals, all counter-clockwise.
+/// A flat mesh: a jittered grid of 6 x 6 to 16 x 16 cells with random diagonals, all
+/// counter-clockwise.
 pub fn sheet(kind: Sheet, rng: &mut Rng) -> Mesh {
     let (columns, rows) = (rng.range(6, 16) as usize, rng.range(6, 16) as usize);
     let place = placing(kind, rng);
@@ -164,9 +154,7 @@ pub fn sheet(kind: Sheet, rng: &mut Rng) -> Mesh {
     // A plane through the eye's left or over it is seen from its other side.
     let [a, b, c] = triangles[0].map(|index| directions[index].map(i128::from));
     if dot(&cross(&a, &b), &c) < 0 {
-        triangles
-            .iter_mut()
-            .for_each(|triangle| triangle.swap(1, 2));
+        triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
     }
     let (s, t) = (1.0 - 1.0 / columns as f64, 1.0 - 1.0 / rows as f64);
     let cone = vec![vertex(-s, -t), vertex(s, -t), vertex(s, t), vertex(-s, t)];
@@ -184,7 +172,8 @@ fn placing(kind: Sheet, rng: &mut Rng) -> Box<dyn Fn(f64, f64) -> [f64; 3]> {
             Box::new(move |s, t| [REACH * s * w, REACH * t * w, w])
         }
         Sheet::Tilted => {
-            // 1/w is linear on the screen, from `nearest` at one corner of the sheet to 2 - `nearest` at the opposite one.
+            // 1/w is linear on the screen, from `nearest` at one corner of the sheet to 2 -
+            // `nearest` at the opposite one.
             let nearest = 0.5_f64.powi(rng.range(1, 10) as i32);
             let (sine, cosine) = angle.sin_cos();
             let steepness = (1.0 - nearest) / (sine.abs() + cosine.abs());
@@ -201,11 +190,7 @@ fn placing(kind: Sheet, rng: &mut Rng) -> Box<dyn Fn(f64, f64) -> [f64; 3]> {
             let slope = rng.between(-0.3, 0.3);
             Box::new(move |s, t| {
                 let (across, down, ahead) = (size * s, -below, size * (t + slope * s));
-                [
-                    across * cosine - down * sine,
-                    across * sine + down * cosine,
-                    ahead,
-                ]
+                [across * cosine - down * sine, across * sine + down * cosine, ahead]
             })
         }
     }
@@ -225,8 +210,9 @@ impl FanCentre {
     pub const ALL: [Self; 2] = [Self::OnPixelCentre, Self::Anywhere];
 }
 
-/// A fan of 5 to 24 triangles round a vertex, all counter-clockwise, each ring vertex at a distance of its own: small
-/// ones of a few pixels, some that cover the whole viewport, and some whose ring lies at infinity or behind the eye.
+/// A fan of 5 to 24 triangles round a vertex, all counter-clockwise, each ring vertex at a distance
+/// of its own: small ones of a few pixels, some that cover the whole viewport, and some whose ring
+/// lies at infinity or behind the eye.
 pub fn fan(centre: FanCentre, viewport: Viewport, rng: &mut Rng) -> Mesh {
     let middle = match centre {
         FanCentre::OnPixelCentre => {
@@ -244,44 +230,31 @@ pub fn fan(centre: FanCentre, viewport: Viewport, rng: &mut Rng) -> Mesh {
     let everything = rng.once_in(2);
     // At least four pixels, where that is not more than the grid has room for.
     let side = viewport.width.min(viewport.height);
-    let radius = if everything {
-        6.0
-    } else {
-        rng.between(0.05, 1.0).max(8.0 / f64::from(side)).min(6.0)
-    };
+    let radius =
+        if everything { 6.0 } else { rng.between(0.05, 1.0).max(8.0 / f64::from(side)).min(6.0) };
     let beyond = everything && rng.once_in(2);
     let count = rng.range(5, 24);
     let mut directions = vec![middle];
     for index in 0..count {
         let (sine, cosine) =
             (TAU * (index as f64 + rng.between(-0.2, 0.2)) / count as f64).sin_cos();
-        // The ring vertex is `toward` of the middle plus a step outwards: 1 on the screen, 0 at infinity, below that behind the eye.
-        let toward = if beyond {
-            rng.choose(&[1.0, 0.0, -0.5])
-        } else {
-            1.0
-        };
+        // The ring vertex is `toward` of the middle plus a step outwards: 1 on the screen, 0 at
+        // infinity, below that behind the eye.
+        let toward = if beyond { rng.choose(&[1.0, 0.0, -0.5]) } else { 1.0 };
         let size = rng.between(32768.0, GRID as f64 / 8.0);
         let x = toward * middle_x + radius * cosine;
         let y = toward * middle_y + radius * sine;
         directions.push([x * size, y * size, toward * size].map(|value| value.round() as i64));
     }
     let count = count as usize;
-    let triangles = (0..count)
-        .map(|i| [0, 1 + i, 1 + (i + 1) % count])
-        .collect();
-    // Neighbours on the ring are at most 1.4 / 5 of a turn apart, so it holds a circle of 0.63 of its radius, and
-    // that a square of 0.44 to either side.
+    let triangles = (0..count).map(|i| [0, 1 + i, 1 + (i + 1) % count]).collect();
+    // Neighbours on the ring are at most 1.4 / 5 of a turn apart, so it holds a circle of 0.63 of
+    // its radius, and that a square of 0.44 to either side.
     let half = 0.4 * radius;
     let cone = [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| {
         [middle_x + x, middle_y + y, 1.0].map(|value| (value * GRID as f64 / 8.0).round() as i64)
     });
-    Mesh::from_directions(
-        &directions,
-        triangles,
-        Invariant::CoversOnce(cone.to_vec()),
-        rng,
-    )
+    Mesh::from_directions(&directions, triangles, Invariant::CoversOnce(cone.to_vec()), rng)
 }
 
 #[cfg(test)]
@@ -291,23 +264,19 @@ pub(super) mod tests {
     use super::*;
     use crate::oracle::{ExactTriangle, RationalVertex, Space, random_viewport, whole};
 
-    /// A snap as the contract allows one, for the mesh alone: to sixteenths of a pixel within 1024 pixels of the screen's
-    /// corner, else to 14 bits, each vertex scaled by a power of two. In pixel space.
+    /// A snap as the contract allows one, for the mesh alone: to sixteenths of a pixel within 1024
+    /// pixels of the screen's corner, else to 14 bits, each vertex scaled by a power of two. In
+    /// pixel space.
     pub(in super::super) fn snapped(vertex: Vertex, viewport: Viewport) -> RationalVertex {
         let (width, height) = (i64::from(viewport.width), i64::from(viewport.height));
-        let [x, y, w] = [
-            width * (vertex[0] + vertex[2]),
-            height * (vertex[2] - vertex[1]),
-            2 * vertex[2],
-        ];
+        let [x, y, w] =
+            [width * (vertex[0] + vertex[2]), height * (vertex[2] - vertex[1]), 2 * vertex[2]];
         let nearest = |value: i64, unit: i64| (2 * value + unit).div_euclid(2 * unit);
         if w > 0 && x.abs() <= 1024 * w && y.abs() <= 1024 * w {
             return whole([nearest(16 * x, w), nearest(16 * y, w), 16]);
         }
         let largest = vertex.iter().map(|value| value.abs()).max().unwrap_or(0);
-        let unit = (1..)
-            .map(|bits| 1 << bits)
-            .find(|unit| largest / unit < 1 << 14);
+        let unit = (1..).map(|bits| 1 << bits).find(|unit| largest / unit < 1 << 14);
         let [x, y, w] = vertex.map(|value| nearest(value, unit.unwrap_or(1)));
         whole([width * (x + w), height * (w - y), 2 * w])
     }
@@ -330,18 +299,14 @@ pub(super) mod tests {
         Viewport::new(viewport.width.min(61), viewport.height.min(48))
     }
 
-    /// Checks the invariant on every pixel and both parts; returns the number of pixels it spoke of.
+    /// Checks the invariant on every pixel and both parts; returns the number of pixels it spoke
+    /// of.
     fn check(mesh: &Mesh, viewport: Viewport, seed: u64) -> usize {
         for corners in mesh.all_corners() {
             let exact = ExactTriangle::new(corners, viewport, Part::Front);
             assert_eq!(exact.orientation(), 1, "seed {seed} {corners:?}");
         }
-        assert!(
-            mesh.vertices
-                .iter()
-                .flatten()
-                .all(|value| value.abs() <= GRID)
-        );
+        assert!(mesh.vertices.iter().flatten().all(|value| value.abs() <= GRID));
         let mut seen = 0;
         for part in Part::ALL {
             let prepare = |corners| ExactTriangle::new(corners, viewport, part);
