@@ -11,75 +11,41 @@ pub struct Machine {
     pub isa: &'static str,
     /// Rust's target triple.
     pub target: &'static str,
-    /// The emulator and its arguments, up to the path of the program.
-    pub emulator: &'static [&'static str],
+    /// The emulator.
+    pub emulator: &'static str,
+    /// The emulator's arguments that choose the machine.
+    pub machine: &'static [&'static str],
     /// Debian's package that brings the emulator.
     pub package: &'static str,
 }
 
-const fn arm(
+/// One of Arm's MPS2 boards.
+const fn mps2(
     isa: &'static str,
     target: &'static str,
-    emulator: &'static [&'static str],
+    machine: &'static [&'static str],
 ) -> Machine {
-    Machine { isa, target, emulator, package: "qemu-system-arm" }
+    Machine { isa, target, emulator: "qemu-system-arm", machine, package: "qemu-system-arm" }
 }
 
-/// The arguments of an Arm MPS2 board: instructions counted, output through semihosting.
-macro_rules! mps2 {
-    ($board:literal) => {
-        &[
-            "qemu-system-arm",
-            "-M",
-            $board,
-            "-nographic",
-            "-monitor",
-            "none",
-            "-serial",
-            "none",
-            "-icount",
-            "shift=0",
-            "-semihosting-config",
-            "enable=on,target=native",
-            "-kernel",
-        ]
-    };
-}
-
-/// The emulated machines, one an instruction set.
+/// The emulated machines, one an instruction set. The first runs Cortex-M0 code on a Cortex-M3.
 pub const MACHINES: [Machine; 6] = [
-    arm("m0", "thumbv6m-none-eabi", mps2!("mps2-an385")),
-    arm("m3", "thumbv7m-none-eabi", mps2!("mps2-an385")),
-    arm("m4f", "thumbv7em-none-eabihf", mps2!("mps2-an386")),
-    arm("m7", "thumbv7em-none-eabihf", mps2!("mps2-an500")),
-    arm("m33", "thumbv8m.main-none-eabihf", mps2!("mps2-an505")),
+    mps2("m0", "thumbv6m-none-eabi", &["-M", "mps2-an385"]),
+    mps2("m3", "thumbv7m-none-eabi", &["-M", "mps2-an385"]),
+    mps2("m4f", "thumbv7em-none-eabihf", &["-M", "mps2-an386"]),
+    mps2("m7", "thumbv7em-none-eabihf", &["-M", "mps2-an500"]),
+    mps2("m33", "thumbv8m.main-none-eabihf", &["-M", "mps2-an505"]),
     Machine {
         isa: "rv32imc",
         target: "riscv32imc-unknown-none-elf",
-        emulator: &[
-            "qemu-system-riscv32",
-            "-M",
-            "virt",
-            "-cpu",
-            "rv32,a=off,f=off,d=off",
-            "-m",
-            "16M",
-            "-bios",
-            "none",
-            "-nographic",
-            "-monitor",
-            "none",
-            "-serial",
-            "none",
-            "-icount",
-            "shift=0",
-            "-semihosting-config",
-            "enable=on,target=native",
-            "-kernel",
-        ],
+        emulator: "qemu-system-riscv32",
+        machine: &["-M", "virt", "-cpu", "rv32,a=off,f=off,d=off", "-m", "16M", "-bios", "none"],
         package: "qemu-system-misc",
     },
 ];
+
+/// Arguments for every machine: no screen, instructions counted, output through semihosting.
+const HEADLESS: &str = "-nographic -monitor none -serial none -icount shift=0 -semihosting-config enable=on,target=native";
 
 /// The folder of the workspace.
 #[must_use]
@@ -161,13 +127,18 @@ pub fn build(board: &str, program: &str, target: &str) -> Result<PathBuf, String
 ///
 /// The emulator's words, or the package that brings it.
 pub fn emulate(machine: &Machine, program: &Path) -> Result<String, String> {
-    let [emulator, arguments @ ..] = machine.emulator else {
-        return Err(format!("{} has no emulator", machine.isa));
-    };
     let mut command = Command::new("timeout");
-    command.args(["120", emulator]).args(arguments).arg(program);
-    run(&mut command).map_err(|error| match Command::new(emulator).arg("--version").output() {
-        Ok(_) => error,
-        Err(_) => format!("{emulator} is missing: Debian's package {} brings it", machine.package),
+    command.args(["120", machine.emulator]).args(machine.machine);
+    command.args(HEADLESS.split(' ')).arg("-kernel").arg(program);
+    run(&mut command).map_err(|error| {
+        match Command::new(machine.emulator).arg("--version").output() {
+            Ok(_) => error,
+            Err(_) => {
+                format!(
+                    "{} is missing: Debian's package {} brings it",
+                    machine.emulator, machine.package
+                )
+            }
+        }
     })
 }

@@ -122,7 +122,8 @@ impl Viewport {
     /// The part of the scissor that a `width x height` buffer holds, in the viewport's pixels.
     #[inline]
     pub(crate) fn visible(&self, width: u32, height: u32) -> Rect {
-        let side = |v: u32| i32::try_from(v).unwrap_or(i32::MAX >> 1);
+        // An origin moves a side by at most 2^15; beyond 2^30 a target is as good as endless.
+        let side = |v: u32| i32::try_from(v).unwrap_or(i32::MAX).min(1 << 30);
         let (x, y) = self.origin;
         self.scissor.intersect(Rect { x0: -x, y0: -y, x1: side(width) - x, y1: side(height) - y })
     }
