@@ -55,10 +55,14 @@ impl ClipVertex {
         Self { raw: raw.map(|v| low(shr_round(v, shift))), shift: shift as u8 }
     }
 
-    /// `w` in raw Q16.16, before the shift.
+    /// Whether `w` is at least a raw distance of 1 to `2^31`.
+    ///
+    /// A shifted `w` of 1 or more is at least `2^shift`, so no more than 32 bits need be undone; `raw` is
+    /// at most 2^30 where it was shifted.
     #[inline]
-    pub(crate) const fn wide_w(&self) -> i64 {
-        (self.raw[3] as i64) << self.shift
+    pub(crate) fn reaches(&self, distance: i64) -> bool {
+        let [_, _, _, w] = self.raw;
+        i64::from(w) << self.shift.min(32) >= distance
     }
 }
 
@@ -201,7 +205,7 @@ impl Outside {
         let [x, y, z, w] = vertex.raw.map(i64::from);
         let bit = |outside: bool, n: u16| u16::from(outside) << n;
         Self(
-            bit(vertex.wide_w() < hither, 0)
+            bit(!vertex.reaches(hither), 0)
                 | bit(x + w < 0, 1)
                 | bit(w - x < 0, 2)
                 | bit(y + w < 0, 3)
@@ -238,6 +242,9 @@ mod tests {
         assert_eq!(v.raw, [1 << 29, -(1 << 28), 0, 1 << 20]);
         let near = ClipVertex::from_wide([i64::from(i32::MAX), i64::from(-i32::MAX), 0, 1]);
         assert_eq!((near.shift, near.raw), (0, [i32::MAX, -i32::MAX, 0, 1]));
+        let far = ClipVertex::from_wide([0, 0, 0, i64::MAX]);
+        let behind = ClipVertex::from_wide([0, 0, 0, i64::MIN]);
+        assert!(far.reaches(1 << 31) && !behind.reaches(1) && near.reaches(1) && !near.reaches(2));
         let extreme = ClipVertex::from_wide([i64::MIN, i64::MAX, 0, 1]);
         assert_eq!(extreme.shift, 34);
         assert_eq!(extreme.raw, [-(1 << 29), 1 << 29, 0, 0]);

@@ -1,7 +1,7 @@
 //! What the fuzz targets found, each as a test of its own.
 
-use hither::{Frame, Outcome, Target, Viewport};
-use host_tests::record::{Mark, clip_vertex};
+use hither::{ClipVertex, Frame, Outcome, Target, Viewport};
+use host_tests::record::{Mark, Record, clip_vertex};
 
 /// A target that says it is of a size, and holds nothing.
 #[derive(Debug)]
@@ -33,5 +33,16 @@ fn a_target_of_any_size_takes_any_origin() {
                 assert_eq!(outcome, shown, "side {side}, origin {origin}");
             }
         }
+    }
+}
+
+/// `setup`: a `w` of nearly 2^63 raw, rounded up by its shift, counted as behind the eye.
+#[test]
+fn a_vertex_of_any_distance_is_in_front() {
+    for w in [i64::MAX, i64::MAX - 1194, 1 << 62, (1 << 62) - 1] {
+        let corners = [[-w, -w], [w, -w], [0, w]];
+        let corners = corners.map(|[x, y]| (ClipVertex::from_wide([x, y, 0, w]), []));
+        let mut frame = Frame::new(Record::new(4, 4)).unwrap();
+        assert_eq!(frame.draw_triangle(corners, &Mark), Outcome::Drawn, "w = {w}");
     }
 }

@@ -54,7 +54,7 @@ impl<const BITS: u32> Snap for Quick<BITS> {
         let down = i64::from(viewport.height) * (w - y);
         let limit = 2 * GUARD_BAND * w;
         let inside = across.abs() <= limit && down.abs() <= limit;
-        if inside && w > 0 && vertex.wide_w() >= hither {
+        if inside && w > 0 && vertex.reaches(hither) {
             project(vertex, across, down)
         } else {
             homogeneous(vertex)
