@@ -72,7 +72,7 @@ pub struct PerspectiveEvery<const N: u8>;
 
 /// No correction: linear on the screen, for triangles with no vertex behind the hither plane.
 /// Another triangle is divided at each pixel, and counted in
-/// [`Counts`](crate::Counts)` ::fallbacks`.
+/// [`Counts::fallbacks`](crate::Counts::fallbacks).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Affine;
 

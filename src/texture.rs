@@ -23,7 +23,7 @@ impl<F: PixelFormat> Clone for Texture<'_, F> {
 impl<F: PixelFormat> Copy for Texture<'_, F> {}
 
 impl<'a, F: PixelFormat> Texture<'a, F> {
-    /// The largest side, in texels: a texel is then 1 / 2^4 of the coordinates' own precision.
+    /// The largest side, in texels: a texel is then 2^4 steps of a coordinate, which are 2^-16.
     pub const MAX_SIDE: u32 = 4096;
 
     /// A texture over exactly `width * height` words.

@@ -7,7 +7,7 @@
 //! the largest coordinate is always in `(2^19, 2^20]`, unless all are 0.
 
 use super::{ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, shift_round, shift_to_fit};
-use crate::math::{Scale, bits, reciprocal};
+use crate::math::{Scale, reciprocal};
 
 /// The exact tier: homogeneous snap, coverage equal to exact rational arithmetic for every input on
 /// the grid, slivers, `w <= 0` and external triangles included.
@@ -116,7 +116,6 @@ const _: () = assert!(
     (2 * (Viewport::MAX_SIDE as i64)) << Exact::COORDINATE_BITS <= 1 << 30,
     "W (x + w) fits 31 bits, as first_centre assumes"
 );
-const _: () = assert!(bits(Exact::COORDINATE_BITS) == 20, "grid of 2^20");
 
 #[cfg(test)]
 mod tests {
