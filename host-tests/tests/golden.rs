@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 
 use hither::{
     ClipVertex, Correction, Cull, DepthBuffer, DepthTest, Exact, FaceColors, Frame, Framebuffer,
-    Gouraud, Hither, I16F16, Mat4, Mesh, Perspective, PerspectiveEvery, Quick, Rgb565, Rgb565Be,
-    Target, Textured, Tier, Vertex,
+    Gouraud, Hither, I16F16, Perspective, PerspectiveEvery, Quick, Rgb565, Rgb565Be, Target, Tier,
+    Vertex,
 };
 use hither_examples::{picture, rgb565};
 use hither_scenes::spinning_teapot::{self, Moment};
-use hither_scenes::{ground, torus};
+use hither_scenes::{floor, ground, torus};
 
 /// Pixels along each side of every picture.
 const SIDE: u32 = 120;
@@ -58,7 +58,7 @@ impl Scene {
             Self::Teapot(_) => spinning_teapot::HITHER,
             Self::TorusFlat | Self::TorusGouraud => torus::HITHER,
             Self::Triangle => Hither::new(I16F16::ONE).unwrap(),
-            Self::Floor => Hither::new(I16F16::lit("0.75")).unwrap(),
+            Self::Floor => floor::HITHER,
         }
     }
 
@@ -94,7 +94,7 @@ impl Scene {
                 frame.draw(&torus::TORUS, &torus::transform().unwrap(), &Gouraud, &mut cache);
             }
             Self::Triangle => triangle(frame),
-            Self::Floor => floor(frame),
+            Self::Floor => drop(floor::draw(frame).unwrap()),
         }
     }
 }
@@ -119,23 +119,6 @@ where
         corner("-0.15", "0.9", 4, 2),
     ];
     frame.draw_triangle(corners, &Gouraud);
-}
-
-fn floor<C, D, T, I>(frame: &mut Frame<C, D, Hither, T, I>)
-where
-    C: Target<Color = Rgb565>,
-    D: DepthTest,
-    T: Tier,
-    I: Correction,
-{
-    // A plane one below the eye, 60 wide and from 10 behind it to 50 in front; texture coordinates are half of that.
-    let places = [[-30, 10], [30, 10], [30, -50], [-30, -50_i16]];
-    let positions = places.map(|[x, z]| [x, -1, z]);
-    let varyings = places.map(|place| place.map(|c| I16F16::from_num(c) / 2));
-    let mesh = Mesh::try_new(&positions, 0, &varyings, &[[0, 1, 2], [0, 2, 3]]).unwrap();
-    let [focal, far] = ["1.25", "64"].map(|number| number.parse().unwrap());
-    let transform = Mat4::perspective(focal, I16F16::ONE, I16F16::lit("0.75"), far).unwrap();
-    frame.draw(&mesh, &transform, &Textured(ground::STONES), &mut []);
 }
 
 /// A scene in a tier, in words of native byte order.

@@ -4,6 +4,7 @@
 #![no_std]
 
 pub mod checksum;
+pub mod floor;
 pub mod ground;
 pub mod pictures;
 pub mod spinning_teapot;
