@@ -83,6 +83,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod band;
 mod buffer;
 mod clip;
 mod color;
@@ -102,6 +103,7 @@ mod transform;
 mod traversal;
 mod vertex;
 
+pub use band::{Band, Bands, FrameError, SwapChain, Transfer};
 pub use buffer::BufferSize;
 pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};

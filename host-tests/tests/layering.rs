@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "math",
     "color",
     "buffer",
@@ -21,6 +21,7 @@ const ORDER: [&str; 17] = [
     "fragment",
     "mesh",
     "draw",
+    "band",
     "eg",
 ];
 

@@ -4,6 +4,7 @@
 #![no_std]
 
 pub mod checksum;
+mod error;
 pub mod floor;
 pub mod ground;
 pub mod pictures;
@@ -12,3 +13,5 @@ pub mod teapot;
 pub mod texture;
 pub mod torus;
 mod trigonometry;
+
+pub use error::SceneError;

@@ -4,10 +4,11 @@
 //! Q16.16 constants that `f64` holds exactly, so that a reference starts from the same ones.
 
 use hither::{
-    Angle, Correction, Counts, Cull, DepthTest, Frame, Gouraud, Hither, I16F16, Lit, Mat4,
-    MatrixError, Mesh, NormalColor, Rgb565, Target, Tier, Vec3, Vertex,
+    Angle, Correction, Counts, Cull, DepthBuffer, DepthTest, Frame, Gouraud, Hither, I16F16, Lit,
+    Mat4, MatrixError, Mesh, NormalColor, Rgb565, Target, Tier, Vec3, Vertex, Viewport,
 };
 
+use crate::SceneError;
 use crate::ground::{BACKGROUND, Faded, GROUND, STONES};
 use crate::teapot::{FRACTION_BITS, NORMALS, POSITIONS, TRIANGLES};
 
@@ -125,6 +126,37 @@ where
     Ok(Drawn { teapot, ground })
 }
 
+/// Clears and draws what a target shows of the scene: all of a viewport, or a band of it.
+///
+/// `depth` has a word a pixel of the target; it is cleared here. See [`draw`] for the cache.
+///
+/// # Errors
+///
+/// [`SceneError`] where the depth words are fewer than the target's pixels.
+pub fn draw_onto<C, T, I>(
+    target: C,
+    viewport: Viewport,
+    (tier, correction): (T, I),
+    depth: &mut [u16],
+    moment: Moment,
+    cache: &mut [Vertex<T, 3>],
+) -> Result<Drawn, SceneError>
+where
+    C: Target<Color = Rgb565>,
+    T: Tier,
+    I: Correction,
+{
+    let (width, height) = target.size();
+    let depth = DepthBuffer::try_new(depth, width, height)?;
+    let mut frame = Frame::with_viewport(target, viewport)
+        .with_tier(tier)
+        .with_correction(correction)
+        .with_hither(HITHER)
+        .with_depth(depth)?
+        .with_cull(CULL);
+    Ok(draw(&mut frame, moment, cache)?)
+}
+
 /// From the world to clip space.
 fn camera(aspect: I16F16, moment: Moment) -> Result<Mat4, MatrixError> {
     let [x, y, z] = EYE;
@@ -183,5 +215,25 @@ mod tests {
         let whole = drawn_with(&mut cache);
         assert_eq!(whole, drawn_with(&mut cache[..100]));
         assert_eq!(whole, drawn_with(&mut []));
+    }
+
+    #[test]
+    fn bands_are_the_picture() {
+        let mut whole = vec![0; 80 * 60];
+        let (mut depth, mut cache) = (vec![0; 80 * 60], [Vertex::EMPTY; VERTEX_COUNT]);
+        let knobs = (hither::Quick::<8>, hither::PerspectiveEvery::<16>);
+        let (picture, moment) = (Viewport::new(80, 60).unwrap(), Moment { number: 5, frames: 8 });
+        let target = Framebuffer::<Rgb565Be>::try_new(&mut whole, 80, 60).unwrap();
+        draw_onto(target, picture, knobs, &mut depth, moment, &mut cache).unwrap();
+        let mut words = [0; 80 * 13];
+        for band in picture.bands(words.len()).unwrap() {
+            let target = band.framebuffer::<Rgb565Be>(&mut words).unwrap();
+            draw_onto(target, band.viewport(), knobs, &mut depth, moment, &mut cache).unwrap();
+            let rows = &whole[band.y() as usize * 80..][..band.pixels()];
+            assert_eq!(&words[..band.pixels()], rows, "{band:?}");
+        }
+        let target = Framebuffer::<Rgb565Be>::try_new(&mut whole, 80, 60).unwrap();
+        let error = draw_onto(target, picture, knobs, &mut depth[..4799], moment, &mut cache);
+        assert!(matches!(error, Err(SceneError::Buffer(_))));
     }
 }
