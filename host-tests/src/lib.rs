@@ -1,6 +1,7 @@
 //! Oracles and shared parts of the tests and measuring commands.
 
 pub mod accuracy;
+pub mod boards;
 pub mod cross;
 pub mod dump;
 pub mod oracle;

@@ -1,0 +1,3 @@
+//! Emulated boards with a display: what their panel shows, against what the host draws.
+
+pub mod screen;
