@@ -134,7 +134,8 @@ pub struct Vertex<T: Snap, const N: usize = 0, const P: usize = 0> {
 }
 
 impl<T: Snap, const N: usize, const P: usize> Vertex<T, N, P> {
-    /// A vertex that draws nothing: what a cache is filled with before its first use.
+    /// A vertex that draws nothing: what a cache is filled with before its first use. All zero bits, so
+    /// that a static cache takes no flash.
     pub const EMPTY: Self = Self {
         position: T::Position::EMPTY,
         z: 0,

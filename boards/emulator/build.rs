@@ -14,6 +14,10 @@ REGION_ALIAS(\"REGION_BSS\", RAM);
 REGION_ALIAS(\"REGION_HEAP\", RAM);
 REGION_ALIAS(\"REGION_STACK\", RAM);
 "
+    } else if env::var_os("CARGO_FEATURE_MICROBIT").is_some() {
+        "MEMORY { FLASH : ORIGIN = 0x00000000, LENGTH = 256K
+RAM : ORIGIN = 0x20000000, LENGTH = 16K }
+"
     } else if target.starts_with("thumbv8m") {
         "MEMORY { FLASH : ORIGIN = 0x10000000, LENGTH = 4M
 RAM : ORIGIN = 0x38000000, LENGTH = 4M }
@@ -31,5 +35,10 @@ RAM : ORIGIN = 0x20000000, LENGTH = 4M }
         println!("cargo:rustc-link-arg=--nmagic");
     }
     println!("cargo:rustc-link-arg=-Tlink.x");
+    // The AN505's timer is elsewhere.
+    println!("cargo:rustc-check-cfg=cfg(armv8m)");
+    if target.starts_with("thumbv8m") {
+        println!("cargo:rustc-cfg=armv8m");
+    }
     println!("cargo:rerun-if-changed=build.rs");
 }

@@ -146,8 +146,11 @@ impl<const BITS: u32> QuickPosition<BITS> {
     pub(crate) fn first_pixel(&self, viewport: &Viewport) -> [i32; 2] {
         let [width, height] = [viewport.width, viewport.height];
         if self.projected {
-            let first = |v: i32| (v + (Quick::<BITS>::PIXEL / 2 - 1)) >> BITS;
-            [first(self.x).clamp(0, width), first(self.y).clamp(0, height)]
+            let first = |v: i32, side: i32| {
+                // Not `clamp`: it has a panic path, for ends that cross.
+                ((v + (Quick::<BITS>::PIXEL / 2 - 1)) >> BITS).min(side).max(0)
+            };
+            [first(self.x, width), first(self.y, height)]
         } else {
             let [x, y, w] = self.in_pixels(viewport).map(low);
             let sign = w.signum();
@@ -160,7 +163,7 @@ impl<const BITS: u32> QuickPosition<BITS> {
 }
 
 impl<const BITS: u32> Position for QuickPosition<BITS> {
-    const EMPTY: Self = Self { x: 0, y: 0, w: 0, mantissa: 1 << 31, exponent: 0, projected: false };
+    const EMPTY: Self = Self { x: 0, y: 0, w: 0, mantissa: 0, exponent: 0, projected: false };
 
     #[inline]
     fn homogeneous(&self) -> Snapped {

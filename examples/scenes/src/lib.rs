@@ -13,5 +13,6 @@ pub mod teapot;
 pub mod texture;
 pub mod torus;
 mod trigonometry;
+pub mod workloads;
 
 pub use error::SceneError;

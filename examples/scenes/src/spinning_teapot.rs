@@ -186,7 +186,7 @@ mod tests {
     extern crate std;
 
     use super::*;
-    use crate::checksum::checksum;
+    use crate::checksum::Checksum;
     use hither::{DepthBuffer, Exact, Framebuffer, Rgb565Be};
     use std::vec;
 
@@ -206,7 +206,7 @@ mod tests {
         let mut frame =
             frame.with_depth(DepthBuffer::try_new(&mut depths, 80, 60).unwrap()).unwrap();
         let drawn = draw(&mut frame, Moment { number: 5, frames: 8 }, cache).unwrap();
-        (drawn, checksum(frame.target().bytes()))
+        (drawn, Checksum::new().with_bytes(frame.target().bytes()).value())
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! 456 faces look front and cover about 22,223 pixels before depth (that many in `f64`; two fewer through Q16.16 clip
 //! coordinates).
 
-use hither::{Cull, Hither, I16F16, Mat4, MatrixError, Mesh, Rgb565};
+use hither::{Cull, Hither, I16F16, Mat4, MatrixError, Mesh, ModelPosition, Rgb565, SinCos};
 
 use crate::trigonometry::{of_turn, q16, rotation, round};
 
@@ -64,18 +64,30 @@ pub static BARE_TORUS: Mesh<'static, [i32; 3], ()> =
 /// A colour a face: the mean of its vertices' colours.
 pub static FACE_COLORS: [Rgb565; TRIANGLE_COUNT] = face_colors();
 
+/// Where vertex `index` is in model space; past the last one, the origin.
+#[must_use]
+pub fn model_position(index: usize) -> ModelPosition {
+    let raw = POSITIONS.get(index).copied().unwrap_or_default();
+    ModelPosition { raw, fraction_bits: FRACTION_BITS }
+}
+
 /// The model-view-projection for a square picture.
 ///
 /// # Errors
 ///
 /// None in practice: the numbers are constants in range.
 pub fn transform() -> Result<Mat4, MatrixError> {
-    const SQRT_3: f64 = 1.732_050_807_568_877_2;
-    let turned = Mat4::rotation_z(rotation(0.3))
-        .times(&Mat4::rotation_y(rotation(0.9)))?
-        .times(&Mat4::rotation_x(rotation(0.6)))?;
-    let moved = Mat4::translation([I16F16::ZERO, I16F16::ZERO, q16(-3.2)]).times(&turned)?;
-    Mat4::perspective(q16(SQRT_3), I16F16::ONE, NEAR, q16(10.0))?.times(&moved)
+    const ABOUT_X: SinCos = rotation(0.6);
+    const ABOUT_Y: SinCos = rotation(0.9);
+    const ABOUT_Z: SinCos = rotation(0.3);
+    const AWAY: I16F16 = q16(-3.2);
+    const FAR: I16F16 = q16(10.0);
+    const SQRT_3: I16F16 = q16(1.732_050_807_568_877_2);
+    let turned = Mat4::rotation_z(ABOUT_Z)
+        .times(&Mat4::rotation_y(ABOUT_Y))?
+        .times(&Mat4::rotation_x(ABOUT_X))?;
+    let moved = Mat4::translation([I16F16::ZERO, I16F16::ZERO, AWAY]).times(&turned)?;
+    Mat4::perspective(SQRT_3, I16F16::ONE, NEAR, FAR)?.times(&moved)
 }
 
 /// Sine and cosine around the axis and around the tube, of vertex `index`: `(sin a, cos a, sin b, cos b)`.
