@@ -17,35 +17,50 @@ pub struct Machine {
     pub machine: &'static [&'static str],
     /// Debian's package that brings the emulator.
     pub package: &'static str,
+    /// How long an instruction takes, for `-icount`: 2 to this power nanoseconds.
+    pub shift: u32,
+    /// Instructions a tick of the clock that firmware counts by, as a fraction.
+    pub instructions_per_tick: (u64, u64),
 }
 
-/// One of Arm's MPS2 boards.
+/// Nanoseconds that an instruction takes on Arm's machines: `-icount shift=6`.
+const INSTRUCTION_NANOS: u64 = 64;
+
+/// One of Arm's MPS2 boards, whose timer ticks every `tick_nanos` nanoseconds.
 const fn mps2(
     isa: &'static str,
     target: &'static str,
     machine: &'static [&'static str],
+    tick_nanos: u64,
 ) -> Machine {
-    Machine { isa, target, emulator: "qemu-system-arm", machine, package: "qemu-system-arm" }
+    let instructions_per_tick = (tick_nanos, INSTRUCTION_NANOS);
+    let (emulator, package) = ("qemu-system-arm", "qemu-system-arm");
+    let shift = INSTRUCTION_NANOS.trailing_zeros();
+    Machine { isa, target, emulator, machine, package, shift, instructions_per_tick }
 }
 
 /// The emulated machines, one an instruction set. The first runs Cortex-M0 code on a Cortex-M3.
 pub const MACHINES: [Machine; 6] = [
-    mps2("m0", "thumbv6m-none-eabi", &["-M", "mps2-an385"]),
-    mps2("m3", "thumbv7m-none-eabi", &["-M", "mps2-an385"]),
-    mps2("m4f", "thumbv7em-none-eabihf", &["-M", "mps2-an386"]),
-    mps2("m7", "thumbv7em-none-eabihf", &["-M", "mps2-an500"]),
-    mps2("m33", "thumbv8m.main-none-eabihf", &["-M", "mps2-an505"]),
+    mps2("m0", "thumbv6m-none-eabi", &["-M", "mps2-an385"], 40),
+    mps2("m3", "thumbv7m-none-eabi", &["-M", "mps2-an385"], 40),
+    mps2("m4f", "thumbv7em-none-eabihf", &["-M", "mps2-an386"], 40),
+    mps2("m7", "thumbv7em-none-eabihf", &["-M", "mps2-an500"], 40),
+    mps2("m33", "thumbv8m.main-none-eabihf", &["-M", "mps2-an505"], 50),
     Machine {
         isa: "rv32imc",
         target: "riscv32imc-unknown-none-elf",
         emulator: "qemu-system-riscv32",
         machine: &["-M", "virt", "-cpu", "rv32,a=off,f=off,d=off", "-m", "16M", "-bios", "none"],
         package: "qemu-system-misc",
+        // Its counter of retired instructions counts nanoseconds under `-icount`.
+        shift: 0,
+        instructions_per_tick: (1, 1),
     },
 ];
 
-/// Arguments for every machine: no screen, instructions counted, output through semihosting.
-const HEADLESS: &str = "-nographic -monitor none -serial none -icount shift=0 -semihosting-config enable=on,target=native";
+/// Arguments for every machine: no screen, output through semihosting.
+const HEADLESS: &str =
+    "-nographic -monitor none -serial none -semihosting-config enable=on,target=native";
 
 /// The folder of the workspace.
 #[must_use]
@@ -102,6 +117,18 @@ pub fn cargo(verb: &str, target: &str) -> Result<Command, String> {
     Ok(command)
 }
 
+/// What compiles for a target: the version that `rustc` gives of itself.
+///
+/// # Errors
+///
+/// What to install, where no toolchain on this machine has the target.
+pub fn toolchain(target: &str) -> Result<String, String> {
+    let cargo = cargo("build", target)?;
+    let compiler = cargo.get_envs().find(|(name, _)| *name == "RUSTC").and_then(|(_, path)| path);
+    let mut rustc = Command::new(compiler.unwrap_or("rustc".as_ref()));
+    Ok(run(rustc.arg("--version"))?.trim().to_owned())
+}
+
 /// Where Debian's toolchain keeps the source of `core`.
 fn source_of_core() -> PathBuf {
     let sysroot = run(Command::new("/usr/bin/rustc").args(["--print", "sysroot"]));
@@ -109,14 +136,20 @@ fn source_of_core() -> PathBuf {
     Path::new(sysroot.trim()).join("lib/rustlib/src/rust/library/core")
 }
 
-/// Builds a board's firmware for a target; the path of the program.
+/// Builds a board's firmware for a target with more of cargo's arguments; the path of the program.
 ///
 /// # Errors
 ///
 /// The toolchain's or the compiler's words.
-pub fn build(board: &str, program: &str, target: &str) -> Result<PathBuf, String> {
+pub fn build(
+    board: &str,
+    program: &str,
+    target: &str,
+    arguments: &[&str],
+) -> Result<PathBuf, String> {
     let mut command = cargo("build", target)?;
-    command.args(["--release", "--bin", program]).current_dir(root().join("boards").join(board));
+    command.args(["--release", "--locked", "--bin", program]).args(arguments);
+    command.current_dir(root().join("boards").join(board));
     run(&mut command)?;
     Ok(target_folder().join(target).join("release").join(program))
 }
@@ -129,7 +162,8 @@ pub fn build(board: &str, program: &str, target: &str) -> Result<PathBuf, String
 pub fn emulate(machine: &Machine, program: &Path) -> Result<String, String> {
     let mut command = Command::new("timeout");
     command.args(["120", machine.emulator]).args(machine.machine);
-    command.args(HEADLESS.split(' ')).arg("-kernel").arg(program);
+    command.args(HEADLESS.split(' ')).args(["-icount", &format!("shift={}", machine.shift)]);
+    command.arg("-kernel").arg(program);
     run(&mut command).map_err(|error| {
         match Command::new(machine.emulator).arg("--version").output() {
             Ok(_) => error,

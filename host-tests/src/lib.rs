@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod boards;
 pub mod cross;
 pub mod dump;
+pub mod measure;
 pub mod oracle;
 pub mod record;
 pub mod snapped;

@@ -33,7 +33,8 @@ impl Painted {
     #[inline(always)]
     pub fn deepest(&self) -> Option<u32> {
         // SAFETY: as in `paint`.
-        let is_painted = |word: usize| unsafe { self.top.wrapping_sub(word).read_volatile() } == PAINT;
+        let is_painted =
+            |word: usize| unsafe { self.top.wrapping_sub(word).read_volatile() } == PAINT;
         let mut deepest = WORDS - 1;
         if !is_painted(deepest) {
             return None;

@@ -20,7 +20,7 @@ fn expected() -> Vec<String> {
 
 /// Draws on a machine and compares; how many pictures are equal.
 fn check(machine: &Machine, expected: &[String]) -> Result<usize, String> {
-    let program = build("emulator", "emulator", machine.target)?;
+    let program = build("emulator", "pictures", machine.target, &[])?;
     let printed = emulate(machine, &program)?;
     let printed: Vec<&str> = printed.lines().map(str::trim_end).collect();
     if printed == expected {

@@ -8,7 +8,7 @@
 use core::hint::black_box;
 use emulator::stack;
 use panic_never as _;
-use semihosting::sys::arm_compat::sys_writec;
+use semihosting::io::{Write, stdout};
 
 #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
 #[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
@@ -16,20 +16,18 @@ fn main() -> ! {
     let painted = stack::paint();
     let drawn = work();
     let deepest = painted.deepest();
-    match deepest {
-        Some(bytes) if drawn => print(bytes),
-        _ => semihosting::process::exit(1),
-    }
-    semihosting::process::exit(0)
+    let printed = deepest.filter(|_| drawn).is_some_and(print);
+    semihosting::process::exit(i32::from(!printed))
 }
 
-/// Prints a number and ends the line, without the formatting machinery.
-fn print(number: u32) {
-    for shift in (0..32).step_by(4).rev() {
-        let digit = (number >> shift) as u8 & 15;
-        sys_writec(if digit < 10 { b'0' + digit } else { b'a' + digit - 10 });
+/// Prints a number and ends the line, without the formatting machinery; whether it could.
+fn print(number: u32) -> bool {
+    let mut line = *b"00000000\n";
+    for (digit, shift) in line.iter_mut().zip((0..32).step_by(4).rev()) {
+        let value = (number >> shift) as u8 & 15;
+        *digit = if value < 10 { b'0' + value } else { b'a' + value - 10 };
     }
-    sys_writec(b'\n');
+    stdout().is_ok_and(|mut out| out.write_all(&line).is_ok())
 }
 
 /// Draws the workload; whether it could.

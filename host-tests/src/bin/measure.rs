@@ -1,0 +1,218 @@
+//! Counts what hither costs on emulated machines, and how far off it is:
+//!
+//! ```text
+//! cargo run -p host-tests --release --bin measure [-- --isa m0,m3,m4f,m7,m33,rv32imc] [--workload W1,..]
+//!     [--check | --write]
+//! ```
+//!
+//! Prints a table, and writes `target/measure.csv` and, with `m4f` and `m0` and all workloads, `target/size.csv`.
+//! Instructions are executed ones, the same number run after run. `--check` fails where the tables of figures in
+//! README.md and docs/figures.md say something else; `--write` writes them anew.
+
+use hither_examples::picture::target_folder;
+use hither_scenes::workloads::Workload;
+use host_tests::cross::{MACHINES, Machine, root, toolchain};
+use host_tests::measure::error::references;
+use host_tests::measure::readme::{Block, blocks, compare, rewritten};
+use host_tests::measure::size::{FIRMWARES, ISAS, Size};
+use host_tests::measure::{Figure, TIERS, firmware, size, unit_name, write_csv};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::process::ExitCode;
+
+/// Where the tables of figures are.
+const DOCUMENTS: [&str; 2] = ["README.md", "docs/figures.md"];
+
+/// What is asked for.
+struct Asked {
+    machines: Vec<&'static Machine>,
+    workloads: Vec<Workload>,
+    documents: Documents,
+}
+
+/// What becomes of the tables in the documents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Documents {
+    Leave,
+    Check,
+    Write,
+}
+
+fn main() -> ExitCode {
+    let result = parse(std::env::args().skip(1)).and_then(|asked| measure(&asked));
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Reads the arguments.
+fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
+    let mut asked = Asked {
+        machines: MACHINES.iter().collect(),
+        workloads: Workload::ALL.to_vec(),
+        documents: Documents::Leave,
+    };
+    while let Some(argument) = arguments.next() {
+        let mut list = || arguments.next().ok_or(format!("{argument} needs a list"));
+        match argument.as_str() {
+            "--isa" => {
+                asked.machines = chosen(&list()?, MACHINES.iter(), |machine| machine.isa)?;
+            }
+            "--workload" => {
+                asked.workloads = chosen(&list()?, Workload::ALL.into_iter(), |w| w.name())?;
+            }
+            "--check" => asked.documents = Documents::Check,
+            "--write" => asked.documents = Documents::Write,
+            _ => return Err(format!("{argument} is not --isa, --workload, --check or --write")),
+        }
+    }
+    let all = asked.machines.len() == MACHINES.len() && asked.is_whole();
+    if asked.documents != Documents::Leave && !all {
+        return Err("--check and --write need every instruction set and workload".to_owned());
+    }
+    Ok(asked)
+}
+
+impl Asked {
+    /// Whether every workload is asked for.
+    fn is_whole(&self) -> bool {
+        self.workloads.len() == Workload::ALL.len()
+    }
+}
+
+/// Those of `all` whose names are in a list.
+fn chosen<T>(
+    list: &str,
+    all: impl Iterator<Item = T> + Clone,
+    name: impl Fn(&T) -> &'static str,
+) -> Result<Vec<T>, String> {
+    let names: Vec<&str> = list.split(',').collect();
+    let known: Vec<&str> = all.clone().map(|item| name(&item)).collect();
+    match names.iter().find(|asked| !known.contains(asked)) {
+        Some(unknown) => Err(format!("{unknown} is not one of {}", known.join(", "))),
+        None => Ok(all.filter(|item| names.contains(&name(item))).collect()),
+    }
+}
+
+/// Measures what is asked for.
+fn measure(asked: &Asked) -> Result<(), String> {
+    let sized: Vec<&Machine> = if asked.is_whole() {
+        asked.machines.iter().copied().filter(|m| ISAS.contains(&m.isa)).collect()
+    } else {
+        Vec::new()
+    };
+    let steps = 1 + asked.machines.len() + sized.len() * (1 + FIRMWARES.len() * TIERS.len());
+    let bar = progress(steps as u64);
+    let (figures, sizes) = collect(asked, &sized, &bar)?;
+    bar.finish_and_clear();
+    let Some(first) = asked.machines.first() else {
+        return Err("no instruction set is asked for".to_owned());
+    };
+    let toolchain = toolchain(first.target)?;
+    print(&figures, &sizes, &toolchain);
+    write_csv(&target_folder().join("measure.csv"), &figures, &toolchain)?;
+    if !sizes.is_empty() {
+        size::write_csv(&target_folder().join("size.csv"), &sizes, &toolchain)?;
+    }
+    tables(asked.documents, &blocks(&figures, &sizes, &toolchain))
+}
+
+/// Builds and runs everything.
+fn collect(
+    asked: &Asked,
+    sized: &[&Machine],
+    bar: &ProgressBar,
+) -> Result<(Vec<Figure>, Vec<Size>), String> {
+    bar.set_message("host: references");
+    let references = references();
+    bar.inc(1);
+    let (mut figures, mut sizes) = (Vec::new(), Vec::new());
+    for machine in &asked.machines {
+        bar.set_message(format!("{}: every workload", machine.isa));
+        for count in firmware::count(machine)? {
+            let same = |r: &&_| {
+                let reference: &host_tests::measure::error::Reference = r;
+                (reference.workload, reference.tier) == (count.workload, count.tier)
+            };
+            let reference = references.iter().find(same).ok_or("a count without a reference")?;
+            let figure = Figure::new(&count, reference)?;
+            if asked.workloads.contains(&count.workload) {
+                figures.push(figure);
+            }
+        }
+        bar.inc(1);
+    }
+    for machine in sized {
+        bar.set_message(format!("{}: flash, RAM and stack", machine.isa));
+        sizes.extend(size::measure(machine, || bar.inc(1))?);
+    }
+    Ok((figures, sizes))
+}
+
+/// A bar on a terminal, nothing elsewhere.
+fn progress(steps: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed} {msg}");
+    let bar = ProgressBar::new(steps);
+    style.map_or(bar.clone(), |style| bar.with_style(style))
+}
+
+/// Prints the figures.
+fn print(figures: &[Figure], sizes: &[Size], toolchain: &str) {
+    println!("{toolchain}, opt-level 3, LTO; instructions executed, largest and mean error\n");
+    println!(
+        "{:8} {:9} {:7} {:>12} {:>10}     {:9} {:>7} {:>11} {:>11}",
+        "isa", "workload", "tier", "instructions", "each", "", "pixels", "largest", "mean"
+    );
+    for figure in figures {
+        println!(
+            "{:8} {:9} {:7} {:12} {:>10} per {:9} {:7} {:11.6} {:11.6} {}",
+            figure.isa,
+            figure.workload.name(),
+            figure.tier,
+            figure.instructions,
+            figure.cost(),
+            unit_name(figure.workload.unit()),
+            figure.pixels,
+            figure.deviation.max,
+            figure.deviation.mean,
+            figure.deviation.unit
+        );
+    }
+    if !sizes.is_empty() {
+        println!(
+            "\n{:8} {:9} {:7} {:>8} {:>8} {:>8}",
+            "isa", "firmware", "tier", "flash", "RAM", "stack"
+        );
+    }
+    for Size { isa, workload, tier, flash, ram, stack } in sizes {
+        println!("{isa:8} {workload:9} {tier:7} {flash:8} {ram:8} {stack:8}");
+    }
+}
+
+/// Checks or writes the tables in the documents.
+fn tables(documents: Documents, blocks: &[Block]) -> Result<(), String> {
+    if documents == Documents::Leave {
+        return Ok(());
+    }
+    let mut compared = 0;
+    for name in DOCUMENTS {
+        let path = root().join(name);
+        let context = |error: &dyn std::fmt::Display| format!("{name}: {error}");
+        let text = std::fs::read_to_string(&path).map_err(|error| context(&error))?;
+        if documents == Documents::Write {
+            let text = rewritten(&text, blocks).map_err(|error| context(&error))?;
+            std::fs::write(&path, text).map_err(|error| context(&error))?;
+        } else {
+            compared += compare(&text, blocks).map_err(|error| {
+                context(&format!("{error}\n(`measure -- --write` writes the tables anew)"))
+            })?;
+        }
+    }
+    if documents == Documents::Check && compared < blocks.len() {
+        return Err(format!("{compared} tables of figures in {}", DOCUMENTS.join(" and ")));
+    }
+    Ok(())
+}
