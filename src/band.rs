@@ -29,6 +29,12 @@ impl Band {
         self.y
     }
 
+    /// Pixels of a row: the picture's width.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.viewport.width()
+    }
+
     /// How many rows.
     #[must_use]
     pub const fn rows(&self) -> u32 {
@@ -65,7 +71,8 @@ impl Band {
 #[derive(Clone, Debug)]
 pub struct Bands {
     viewport: Viewport,
-    height: u32,
+    /// Rows of all bands but the last; at least 1.
+    rows: u32,
     y: u32,
 }
 
@@ -90,7 +97,7 @@ impl Viewport {
         let width = self.width();
         BufferSize::check(width, 1, words)?;
         let rows = (words / width as usize).min(self.height() as usize);
-        Ok(Bands { viewport: *self, height: rows as u32, y: 0 })
+        Ok(Bands { viewport: *self, rows: rows as u32, y: 0 })
     }
 }
 
@@ -101,17 +108,29 @@ impl Iterator for Bands {
     #[expect(clippy::cast_possible_truncation, reason = "a row of at most Viewport::MAX_SIDE")]
     fn next(&mut self) -> Option<Band> {
         let y = self.y;
-        let rows = self.height.min(self.viewport.height() - y);
+        let rows = self.rows.min(self.viewport.height() - y);
         self.y = y + rows;
         let viewport = self.viewport.with_origin(0, -(y as i16));
         (rows > 0).then_some(Band { viewport, y, rows })
     }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let left = (self.viewport.height() - self.y).div_ceil(self.rows) as usize;
+        (left, Some(left))
+    }
 }
+
+impl ExactSizeIterator for Bands {}
+impl core::iter::FusedIterator for Bands {}
 
 /// What sends bands to a display: a DMA engine, or a driver that blocks.
 ///
 /// It takes a buffer by value when a transfer starts, and gives it back when that is done, so that
 /// a buffer in flight cannot be drawn into. At most one is in flight.
+///
+/// A chain may be dropped or forgotten while one is. A DMA engine that goes on by itself needs buffers
+/// that live for ever, such as `&'static mut` ones.
 pub trait Transfer {
     /// A word a pixel.
     type Word;
@@ -121,7 +140,8 @@ pub trait Transfer {
     type Error;
 
     /// Starts to send the first [`Band::pixels`] words of a buffer to the rows of a band. None is
-    /// in flight. What blocks returns when all is sent.
+    /// in flight. What blocks returns when all is sent. Where a display is smaller than the picture, it is
+    /// the transfer that leaves out what is outside, or says so by an error.
     ///
     /// # Errors
     ///
@@ -133,7 +153,7 @@ pub trait Transfer {
     ///
     /// # Errors
     ///
-    /// The display's own.
+    /// The display's own. The buffer is not lost: the next call gives it back, or fails as well.
     fn finish(&mut self) -> Result<Option<Self::Buffer>, Self::Error>;
 }
 
@@ -186,6 +206,8 @@ pub struct SwapChain<T: Transfer> {
 pub enum FrameError<E> {
     /// A buffer does not hold one row.
     Buffer(BufferSize),
+    /// The transfer did not give a buffer back, and there is no other.
+    Lost,
     /// The display's own error.
     Display(E),
 }
@@ -194,6 +216,7 @@ impl<E: core::fmt::Display> core::fmt::Display for FrameError<E> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Buffer(size) => write!(f, "a band: {size}"),
+            Self::Lost => f.write_str("the transfer did not give the buffer back"),
             Self::Display(error) => error.fmt(f),
         }
     }
@@ -214,12 +237,18 @@ impl<T: Transfer> SwapChain<T> {
         &self.transfer
     }
 
+    /// The transfer, and the buffers that it did not hold at the end of the last frame: all of them,
+    /// unless that frame failed.
+    pub fn into_parts(self) -> (T, [Option<T::Buffer>; 2]) {
+        (self.transfer, self.idle)
+    }
+
     /// Draws a picture band by band and sends each, and waits for the last: `draw` fills the words
-    /// of a band, all of them, while the one before is on its way.
+    /// of a band, all of them, while the one before is on its way. They hold what an earlier band left.
     ///
     /// # Errors
     ///
-    /// [`FrameError`]: no buffer holds a row, which is found before anything is drawn; or the
+    /// [`FrameError`]: a buffer does not hold a row, which is found before anything is drawn; or the
     /// display's own error, after which the rest of the picture is not sent. The buffers are kept,
     /// and the next frame may be tried.
     pub fn frame(
@@ -229,13 +258,11 @@ impl<T: Transfer> SwapChain<T> {
     ) -> Result<(), FrameError<T::Error>> {
         self.reclaim()?;
         let lengths = self.idle.iter_mut().flatten().map(|buffer| buffer.as_mut().len());
-        let words = lengths.min().unwrap_or(0);
+        let words = lengths.min().ok_or(FrameError::Lost)?;
         for band in viewport.bands(words).map_err(FrameError::Buffer)? {
-            let Some(mut buffer) = self.take()? else {
-                let size = BufferSize::Words { needed: band.pixels(), got: 0 };
-                return Err(FrameError::Buffer(size));
-            };
-            draw(&band, buffer.as_mut());
+            let mut buffer = self.take()?.ok_or(FrameError::Lost)?;
+            // A prefix of all, as the smallest buffer decided the rows.
+            draw(&band, buffer.as_mut().get_mut(..band.pixels()).unwrap_or_default());
             if let Err(error) = self.reclaim() {
                 self.keep(buffer);
                 return Err(error);
@@ -282,6 +309,10 @@ mod tests {
         flight: Option<(Band, Vec<u16>)>,
         /// Fails at this start, counted down.
         fails_in: usize,
+        /// Fails at this finish, counted down.
+        fails_to_finish_in: usize,
+        /// Whether a buffer is lost where a finish fails, against the trait's contract.
+        loses: bool,
     }
 
     impl Transfer for Late {
@@ -297,6 +328,13 @@ mod tests {
         }
 
         fn finish(&mut self) -> Result<Option<Vec<u16>>, u32> {
+            self.fails_to_finish_in = self.fails_to_finish_in.wrapping_sub(1);
+            if self.fails_to_finish_in == 0 {
+                if self.loses {
+                    self.flight = None;
+                }
+                return Err(77);
+            }
             Ok(self.flight.take().map(|(band, buffer)| {
                 let start = band.y() as usize * 10;
                 self.rows[start..start + band.pixels()].copy_from_slice(&buffer[..band.pixels()]);
@@ -307,13 +345,14 @@ mod tests {
 
     fn chain(height: u32, words: usize, second: bool, fails_in: usize) -> SwapChain<Late> {
         let rows = vec![9999; 10 * height as usize];
-        let late = Late { rows, flight: None, fails_in };
+        let late = Late { rows, flight: None, fails_in, fails_to_finish_in: 0, loses: false };
         SwapChain::new(late, vec![0; words], second.then(|| vec![0; words]))
     }
 
     /// Numbers the pixels of a picture.
     fn number(band: &Band, words: &mut [u16]) {
-        for (i, word) in words.iter_mut().take(band.pixels()).enumerate() {
+        assert_eq!(words.len(), band.pixels());
+        for (i, word) in words.iter_mut().enumerate() {
             *word = (band.y() * 10) as u16 + i as u16;
         }
     }
@@ -352,11 +391,59 @@ mod tests {
         let picture = Viewport::new(10, 48).unwrap();
         let error = chain(48, 9, true, 0).frame(&picture, |_, _| panic!("drawn"));
         assert_eq!(error, Err(FrameError::Buffer(BufferSize::Words { needed: 10, got: 9 })));
-        let mut chain = SwapChain::new(
-            Late { rows: vec![], flight: None, fails_in: 0 },
-            vec![0; 480],
-            Some(vec![]),
-        );
+        let (late, _) = chain(48, 480, false, 0).into_parts();
+        let mut chain = SwapChain::new(late, vec![0; 480], Some(vec![]));
         assert!(chain.frame(&picture, |_, _| panic!("drawn")).is_err());
+    }
+
+    #[test]
+    fn a_failed_finish_passes_through_wherever_and_no_buffer_is_lost() {
+        let picture = Viewport::new(10, 48).unwrap();
+        for second in [false, true] {
+            // A frame of ten bands waits 12 times or more: at its start, at each band, at its end.
+            for wait in 1..=12 {
+                let mut chain = chain(48, 50, second, 0);
+                chain.transfer.fails_to_finish_in = wait;
+                assert_eq!(chain.frame(&picture, number), Err(FrameError::Display(77)), "{wait}");
+                assert_eq!(chain.frame(&picture, number), Ok(()), "{wait}");
+                assert_eq!(chain.transfer().rows, (0..480).collect::<Vec<u16>>());
+                let (_, idle) = chain.into_parts();
+                assert_eq!(idle.iter().flatten().count(), 1 + usize::from(second), "{wait}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_transfer_that_loses_the_only_buffer_is_named() {
+        let picture = Viewport::new(10, 48).unwrap();
+        let mut chain = chain(48, 50, false, 0);
+        (chain.transfer.fails_to_finish_in, chain.transfer.loses) = (3, true);
+        assert_eq!(chain.frame(&picture, number), Err(FrameError::Display(77)));
+        assert_eq!(chain.frame(&picture, number), Err(FrameError::Lost));
+    }
+
+    #[test]
+    fn the_smaller_of_two_buffers_decides_the_rows() {
+        let picture = Viewport::new(10, 48).unwrap();
+        let (late, _) = chain(48, 480, false, 0).into_parts();
+        let mut chain = SwapChain::new(late, vec![0; 70], Some(vec![0; 39]));
+        let mut rows = vec![];
+        let draw = |band: &Band, words: &mut [u16]| {
+            rows.push(band.rows());
+            number(band, words);
+        };
+        chain.frame(&picture, draw).unwrap();
+        assert_eq!(rows, [3; 16]);
+        assert_eq!(chain.transfer().rows, (0..480).collect::<Vec<u16>>());
+    }
+
+    #[test]
+    fn the_bands_that_are_left_are_counted() {
+        let mut bands = Viewport::new(10, 48).unwrap().bands(70).unwrap();
+        for left in (0..7).rev() {
+            assert!(bands.next().is_some());
+            assert_eq!(bands.len(), left);
+        }
+        assert_eq!((bands.next(), bands.next()), (None, None));
     }
 }
