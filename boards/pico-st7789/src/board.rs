@@ -50,8 +50,11 @@ pub struct Board {
 }
 
 impl Board {
-    /// Brings the chip up. It can be done once.
-    #[expect(clippy::missing_panics_doc, reason = "it runs first, on a crystal that is there")]
+    /// Brings the chip up.
+    ///
+    /// # Panics
+    ///
+    /// The second time.
     pub fn take() -> Self {
         let mut chip = pac::Peripherals::take().expect("taken once");
         let mut watchdog = Watchdog::new(chip.WATCHDOG);
@@ -64,7 +67,7 @@ impl Board {
             &mut chip.RESETS,
             &mut watchdog,
         );
-        let clocks = clocks.ok().expect("12 MHz is a crystal that the PLLs take");
+        let clocks = clocks.expect("12 MHz is a crystal that the PLLs take");
         let timer = Timer::new(chip.TIMER, &mut chip.RESETS, &clocks);
         let sio = Sio::new(chip.SIO);
         let (bank, pads) = (chip.IO_BANK0, chip.PADS_BANK0);

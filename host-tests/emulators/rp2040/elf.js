@@ -4,11 +4,13 @@ const FLASH_START = 0x10000000;
 const FLASH_END = 0x11000000;
 const BOOT2_SIZE = 256;
 const SEGMENT_LOAD = 1;
+const MACHINE_ARM = 40;
 
-/** The loadable segments of a 32-bit little-endian ELF file: `{ address, bytes }`, by load address. */
+/** The loadable segments of an ELF file for Arm: `{ address, bytes }`, by load address. */
 function segments(elf) {
-  if (elf.length < 52 || elf.readUInt32BE(0) !== 0x7f454c46) {
-    throw new Error('not an ELF file');
+  const isElf = elf.length >= 52 && elf.readUInt32BE(0) === 0x7f454c46;
+  if (!isElf || elf.readUInt16LE(18) !== MACHINE_ARM) {
+    throw new Error('not an ELF file for Arm');
   }
   const start = elf.readUInt32LE(28);
   const size = elf.readUInt16LE(42);

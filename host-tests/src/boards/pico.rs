@@ -26,6 +26,9 @@ const RGB565: u64 = 0x55;
 /// A run that takes longer is ended.
 const SECONDS: u32 = 120;
 
+/// Of the chip's time: firmwares that take longer are taken to be stuck.
+const MILLISECONDS_A_FRAME: u32 = 2000;
+
 /// Frames a turn, as the firmware counts them.
 pub const FRAMES_A_TURN: u32 = 64;
 
@@ -77,6 +80,8 @@ pub fn capture(elf: &Path, options: &Options) -> Result<Run, String> {
     command.arg(SECONDS.to_string()).arg("node").arg(folder().join("emulate.js"));
     command.arg(elf).arg(&memory.0).args(["--frames", &options.frames.to_string()]);
     command.args(["--lose-byte", &options.lose_byte.unwrap_or(0).to_string()]);
+    let limit = MILLISECONDS_A_FRAME.saturating_mul(options.frames);
+    command.args(["--milliseconds", &limit.to_string()]);
     let printed = run(&mut command)?;
     let bytes = std::fs::read(&memory.0);
     let bytes = bytes.map_err(|error| format!("{}: {error}", memory.0.display()))?;
@@ -244,6 +249,55 @@ mod tests {
         assert_eq!(Options::default().last_moment(), Moment { number: 1, frames: 64 });
     }
 
+    /// An ELF file for flash with these Thumb instructions at its start.
+    fn firmware(thumb: &[u16]) -> Vec<u8> {
+        let mut boot2 = [0; 252];
+        for (at, instruction) in thumb.iter().enumerate() {
+            boot2[2 * at..2 * at + 2].copy_from_slice(&instruction.to_le_bytes());
+        }
+        let crc = boot2.iter().fold(u32::MAX, |crc, &byte| {
+            let step = |crc: u32, _| (crc << 1) ^ if crc >> 31 == 1 { 0x04c1_1db7 } else { 0 };
+            (0..8).fold(crc ^ u32::from(byte) << 24, step)
+        });
+        let mut elf = vec![0; 52];
+        elf[..6].copy_from_slice(b"\x7fELF\x01\x01");
+        // For Arm; one program header, of 32 bytes, behind this one.
+        (elf[18], elf[28], elf[42], elf[44]) = (40, 52, 32, 1);
+        let header = [1, 84, 0x1000_0000, 0x1000_0000, 256, 256, 5, 4];
+        elf.extend(header.iter().flat_map(|word: &u32| word.to_le_bytes()));
+        elf.extend(boot2);
+        elf.extend(crc.to_le_bytes());
+        elf
+    }
+
+    #[test]
+    #[ignore = "needs node and npm"]
+    fn a_run_always_ends() {
+        const WFI: u16 = 0xbf30;
+        const BRANCH_BACK: u16 = 0xe7fd;
+        const BRANCH_HERE: u16 = 0xe7fe;
+        const UDF: u16 = 0xde00;
+        let why = |name: &str, elf: &[u8]| {
+            let folder = target_folder();
+            std::fs::create_dir_all(&folder).unwrap();
+            let path = folder.join(name);
+            std::fs::write(&path, elf).unwrap();
+            capture(&path, &Options::default()).unwrap_err()
+        };
+        let check = |name, elf: &[u8], expected: &str| {
+            let error = why(name, elf);
+            assert!(error.contains(expected), "{name}: {error}");
+        };
+        let asleep = firmware(&[WFI, BRANCH_BACK]);
+        check("asleep.elf", &asleep, "asleep for ever, after 0 of 2 frames");
+        check("busy.elf", &firmware(&[BRANCH_HERE]), "0 of 2 frames after 4000 ms");
+        check("panic.elf", &firmware(&[UDF]), "the firmware panicked (at 0x1000000");
+        let mut spoiled = asleep;
+        *spoiled.last_mut().unwrap() ^= 1;
+        check("spoiled.elf", &spoiled, "boot2) is wrong");
+        check("text.elf", b"text", "not an ELF file for Arm");
+    }
+
     /// Builds a firmware and compares what the emulated panel shows with the host's picture.
     fn check(
         board: &str,
@@ -254,8 +308,9 @@ mod tests {
         let elf = build(board, program, features, "thumbv6m-none-eabi")?;
         let start = std::time::Instant::now();
         let run = capture(&elf, &options)?;
-        let name = format!("pico-{program}{}{:?}.png", features.concat(), options.lose_byte);
-        run.screen.write_png(&target_folder().join(name), 2)?;
+        let lost = options.lose_byte.map_or(String::new(), |byte| format!("-lost-{byte}"));
+        let name = elf.file_name().unwrap_or_default().to_string_lossy();
+        run.screen.write_png(&target_folder().join(format!("pico-{name}{lost}.png")), 2)?;
         let (instructions, cycles) = (run.instructions_per_frame, run.cycles_per_frame);
         let seconds = start.elapsed().as_secs_f64();
         println!("{program}: {instructions} instructions, {cycles} cycles, {seconds:.1} s");

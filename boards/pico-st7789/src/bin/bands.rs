@@ -17,7 +17,7 @@ const ROWS: usize = 60;
 const BAND: usize = WIDTH as usize * ROWS;
 
 const _: () = assert!(
-    HEIGHT as usize % ROWS == 0,
+    HEIGHT as usize / ROWS * ROWS == HEIGHT as usize,
     "DMA sends a buffer whole, so that every band has to fill it"
 );
 

@@ -14,9 +14,9 @@ use static_cell::ConstStaticCell;
 
 const PIXELS: usize = WIDTH as usize * HEIGHT as usize;
 
-/// Colour and depth leave no room for all vertices: those over this number are transformed again
+/// About half of the vertices: beside colour and depth RAM is short. The others are transformed again
 /// where they are used.
-const CACHED: usize = 512;
+const CACHED: usize = 256;
 
 /// Bytes that mipidsi gathers before it sends them.
 const GATHERED: usize = 512;
