@@ -238,7 +238,7 @@ pub(crate) struct DepthRun {
 
 impl DepthPlane {
     /// A triangle's depth for words of `bits` bits, 1 to 32.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn new<T: Snap, const N: usize, const P: usize>(
         setup: &Setup,
         vertices: [&Vertex<T, N, P>; 3],

@@ -12,6 +12,7 @@ use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates, Varyings};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
 use crate::setup::{Part, Setup, Tier};
+use crate::traversal::ClipWalk;
 use crate::vertex::{ClipVertex, Distance, Outside, Rect, Vertex};
 use fixed::types::I16F16;
 use shade::Shading;
@@ -153,6 +154,7 @@ where
     }
 
     /// Draws one triangle from vertices that this frame has snapped.
+    #[inline(never)]
     pub fn draw_snapped<F, const N: usize>(
         &mut self,
         vertices: [&Vertex<T, N, P>; 3],
@@ -180,19 +182,19 @@ where
             return Outcome::OffScreen;
         }
         let outside = Outside(a | b | c);
-        let shading = Shading {
-            fragment,
-            varyings: self
-                .hither()
-                .filter(|_| N > 0)
-                .map(|hither| Varyings::new::<T, I, P>(&setup, vertices, hither, outside)),
-            depth: (D::BITS > 0).then(|| DepthPlane::new(&setup, vertices, D::BITS, outside)),
-        };
+        let varyings = self
+            .hither()
+            .filter(|_| N > 0)
+            .map(|hither| Varyings::new::<T, I, P>(&setup, vertices, hither, outside));
+        let depth = (D::BITS > 0).then(|| DepthPlane::new(&setup, vertices, D::BITS, outside));
+        let shading = Shading { fragment, varyings: varyings.as_ref(), depth: depth.as_ref() };
         let cut = (W::CLIPS || P > 0) && outside.0 & Outside::CLIPS != 0;
-        let hither = self.hither();
         let mut part = |setup: &Setup, bounds: Rect| {
-            let clip = cut.then(|| ClipEdges::new(setup, vertices, hither, outside));
-            self.draw_part(setup, bounds, clip.as_ref(), &shading);
+            if cut {
+                self.draw_cut(setup, bounds, vertices, outside, &shading);
+            } else {
+                self.draw_part(setup, bounds, None, &shading);
+            }
         };
         if !front.is_empty() {
             part(&setup, front);
@@ -205,6 +207,25 @@ where
         } else {
             Outcome::Drawn
         }
+    }
+
+    /// Draws a part that planes cut: not inlined, so that a triangle that is not cut has no stack for
+    /// the planes.
+    #[inline(never)]
+    fn draw_cut<F, const N: usize>(
+        &mut self,
+        setup: &Setup,
+        bounds: Rect,
+        vertices: [&Vertex<T, N, P>; 3],
+        outside: Outside,
+        shading: &Shading<'_, F, N>,
+    ) where
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
+        let edges = ClipEdges::new(setup, vertices, self.hither(), outside);
+        let mut clip = ClipWalk::new(&edges, bounds);
+        self.draw_part(setup, bounds, Some(&mut clip), shading);
     }
 
     /// The hither plane, where the range has one.
@@ -236,30 +257,64 @@ where
         F: Fragment<C::Color, N>,
         W: Interpolates<N>,
     {
-        let vertex = |frame: &Self, index: usize| {
-            mesh.vertex(index).map_or(Vertex::EMPTY, |(position, attribute)| {
-                let (clip, varyings) = stage.vertex(position, attribute);
-                frame.snap(&clip, varyings)
-            })
-        };
         for (index, entry) in cache.iter_mut().take(mesh.vertex_count()).enumerate() {
-            *entry = vertex(self, index);
+            *entry = self.vertex(mesh, stage, index);
         }
         let mut counts = Counts::default();
-        let mut spare = [Vertex::EMPTY; 3];
         for (face, indices) in mesh.triangles().iter().enumerate() {
-            let indices = indices.map(usize::from);
-            for (spare, &index) in spare.iter_mut().zip(&indices) {
-                if index >= cache.len() {
-                    *spare = vertex(self, index);
-                }
-            }
-            let ([i, j, k], [a, b, c]) = (indices, &spare);
-            let corner = |index: usize, spare| cache.get(index).unwrap_or(spare);
-            let corners = [corner(i, a), corner(j, b), corner(k, c)];
-            counts.add(self.draw_snapped(corners, &fragment.for_face(face)));
+            let [i, j, k] = indices.map(|index| cache.get(usize::from(index)));
+            let fragment = fragment.for_face(face);
+            counts.add(match (i, j, k) {
+                (Some(a), Some(b), Some(c)) => self.draw_snapped([a, b, c], &fragment),
+                corners => self.draw_uncached(mesh, stage, *indices, corners.into(), &fragment),
+            });
         }
         counts
+    }
+
+    /// A vertex of a mesh, transformed and snapped.
+    #[inline]
+    fn vertex<Q, A, S, const N: usize>(
+        &self,
+        mesh: &Mesh<'_, Q, A>,
+        stage: &S,
+        index: usize,
+    ) -> Vertex<T, N, P>
+    where
+        Q: StoredPosition,
+        S: VertexStage<A, N>,
+        W: Interpolates<N>,
+    {
+        mesh.vertex(index).map_or(Vertex::EMPTY, |(position, attribute)| {
+            let (clip, varyings) = stage.vertex(position, attribute);
+            self.snap(&clip, varyings)
+        })
+    }
+
+    /// Draws a triangle of a mesh of which some corners are not in the cache. Not inlined, so that
+    /// one that is has no stack for them.
+    #[inline(never)]
+    fn draw_uncached<Q, A, S, F, const N: usize>(
+        &mut self,
+        mesh: &Mesh<'_, Q, A>,
+        stage: &S,
+        indices: [u16; 3],
+        cached: [Option<&Vertex<T, N, P>>; 3],
+        fragment: &F,
+    ) -> Outcome
+    where
+        Q: StoredPosition,
+        S: VertexStage<A, N>,
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
+        let mut corners = [Vertex::EMPTY; 3];
+        for ((corner, index), cached) in corners.iter_mut().zip(indices).zip(cached) {
+            let transformed = || self.vertex(mesh, stage, usize::from(index));
+            *corner = cached.copied().unwrap_or_else(transformed);
+        }
+        let [a, b, c] = &corners;
+        self.draw_snapped([a, b, c], fragment)
     }
 }
 

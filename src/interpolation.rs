@@ -172,7 +172,7 @@ fn quotient(n: i32, q: i32) -> i32 {
 
 impl<const N: usize> Varyings<N> {
     /// Sets up a triangle's varyings for a range that has a hither plane.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn new<T: Snap, C: Correction, const P: usize>(
         setup: &Setup,
         vertices: [&Vertex<T, N, P>; 3],

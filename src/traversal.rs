@@ -134,7 +134,7 @@ impl<I: EdgeInt> Walk<I> {
 
 /// The planes that cut a triangle, on the row they have come to.
 #[derive(Clone, Copy, Debug)]
-struct ClipWalk<const P: usize> {
+pub(crate) struct ClipWalk<const P: usize> {
     hither: Option<Edge<i128>>,
     planes: [Option<Edge<i128>>; P],
     bounds: Rect,
@@ -142,7 +142,8 @@ struct ClipWalk<const P: usize> {
 }
 
 impl<const P: usize> ClipWalk<P> {
-    fn new(edges: &ClipEdges<P>, bounds: Rect) -> Self {
+    /// The planes on the first row of a box.
+    pub(crate) fn new(edges: &ClipEdges<P>, bounds: Rect) -> Self {
         let walk = |e: HalfPlane<i128>| Edge::new(e, &bounds);
         Self {
             hither: edges.hither.map(walk),
@@ -174,20 +175,21 @@ enum Edges {
 }
 
 /// The spans of a triangle inside a box, from the top.
-#[derive(Clone, Debug)]
-pub(crate) struct Spans<const P: usize> {
+#[derive(Debug)]
+pub(crate) struct Spans<'a, const P: usize> {
     edges: Edges,
-    clip: Option<ClipWalk<P>>,
+    /// Lent: it is large, and few triangles are cut.
+    clip: Option<&'a mut ClipWalk<P>>,
 }
 
-impl<const P: usize> Spans<P> {
+impl<'a, const P: usize> Spans<'a, P> {
     /// Spans of `setup` (already mirrored for the part behind) in `bounds`, cut by `clip`.
     /// `narrow` says whether the tier has narrow triangles at all.
     #[inline]
     pub(crate) fn new(
         setup: &Setup,
         bounds: Rect,
-        clip: Option<&ClipEdges<P>>,
+        clip: Option<&'a mut ClipWalk<P>>,
         narrow: bool,
     ) -> Self {
         let edges = [0, 1, 2].map(|i| biased(setup, i));
@@ -197,7 +199,7 @@ impl<const P: usize> Spans<P> {
         } else {
             Edges::Wide(Walk::new(edges, bounds))
         };
-        Self { edges, clip: clip.map(|clip| ClipWalk::new(clip, bounds)) }
+        Self { edges, clip }
     }
 }
 
@@ -212,7 +214,7 @@ fn biased(setup: &Setup, i: usize) -> HalfPlane<i64> {
     HalfPlane { a, b, c: (c - i64::from(!top_or_left)) >> setup.step }
 }
 
-impl<const P: usize> Iterator for Spans<P> {
+impl<const P: usize> Iterator for Spans<'_, P> {
     type Item = Span;
 
     #[inline]

@@ -23,8 +23,9 @@ pub struct Machine {
     pub instructions_per_tick: (u64, u64),
 }
 
-/// Nanoseconds that an instruction takes on Arm's machines: `-icount shift=6`.
-const INSTRUCTION_NANOS: u64 = 64;
+/// Nanoseconds that an instruction takes on Arm's machines: more than twice a tick of their timers, so that two readings
+/// of one tell how many instructions are between.
+const INSTRUCTION_NANOS: u64 = 128;
 
 /// One of Arm's MPS2 boards, whose timer ticks every `tick_nanos` nanoseconds.
 const fn mps2(

@@ -1,14 +1,13 @@
 //! From a triangle that is set up to pixels: spans, blocks of them, and the pixel loop.
 
 use super::Frame;
-use crate::clip::ClipEdges;
 use crate::depth::{DepthPlane, DepthRun, DepthTest};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::{Target, run};
 use crate::interpolation::{BLOCK, Correction, Mode, Run, Varyings};
 use crate::setup::{Setup, Tier};
 use crate::span::Span;
-use crate::traversal::Spans;
+use crate::traversal::{ClipWalk, Spans};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
@@ -16,9 +15,18 @@ use fixed::types::I16F16;
 pub(super) struct Shading<'a, F, const N: usize> {
     pub(super) fragment: &'a F,
     /// There unless `N` is 0.
-    pub(super) varyings: Option<Varyings<N>>,
+    pub(super) varyings: Option<&'a Varyings<N>>,
     /// There where depth is kept.
-    pub(super) depth: Option<DepthPlane>,
+    pub(super) depth: Option<&'a DepthPlane>,
+}
+
+impl<F, const N: usize> Shading<'_, F, N> {
+    /// The edge functions at the first pixel of a run, and the run's depths.
+    #[inline]
+    fn start(&self, setup: &Setup, run: Span) -> ([i64; 3], DepthRun) {
+        let edges = setup.edges_at(run.x0, run.y);
+        (edges, self.depth.map_or(DepthRun::NONE, |plane| plane.run(run, edges)))
+    }
 }
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
@@ -29,17 +37,17 @@ where
     I: Correction,
 {
     /// Draws what a part covers of a box.
-    #[inline]
+    #[inline(never)]
     pub(super) fn draw_part<F, const N: usize>(
         &mut self,
         setup: &Setup,
         bounds: Rect,
-        clip: Option<&ClipEdges<P>>,
+        clip: Option<&mut ClipWalk<P>>,
         shading: &Shading<'_, F, N>,
     ) where
         F: Fragment<C::Color, N>,
     {
-        let length = match &shading.varyings {
+        let length = match shading.varyings {
             Some(varyings) if varyings.mode == Mode::Pieces => I::EVERY,
             Some(varyings) if varyings.mode == Mode::Divided => BLOCK,
             _ => i32::MAX,
@@ -80,19 +88,28 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
-        let start = |run: Span| {
-            let edges = setup.edges_at(run.x0, run.y);
-            (edges, shading.depth.map_or(DepthRun::NONE, |plane| plane.run(run, edges)))
-        };
-        let (edges, depth) = start(block);
+        let (edges, depth) = shading.start(setup, block);
         if depth.inside {
             self.draw_from(setup, block, edges, depth, shading);
         } else {
-            // Some depth of the block saturates: each pixel by itself.
-            for pixel in block.blocks(1) {
-                let (edges, depth) = start(pixel);
-                self.draw_from(setup, pixel, edges, depth, shading);
-            }
+            self.draw_saturated(setup, block, shading);
+        }
+    }
+
+    /// Draws a block of which some depth saturates: each pixel by itself.
+    #[cold]
+    #[inline(never)]
+    fn draw_saturated<F, const N: usize>(
+        &mut self,
+        setup: &Setup,
+        block: Span,
+        shading: &Shading<'_, F, N>,
+    ) where
+        F: Fragment<C::Color, N>,
+    {
+        for pixel in block.blocks(1) {
+            let (edges, depth) = shading.start(setup, pixel);
+            self.draw_from(setup, pixel, edges, depth, shading);
         }
     }
 
@@ -108,7 +125,7 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
-        match &shading.varyings {
+        match shading.varyings {
             None => self.draw_run(block, NoVaryings, depth, shading.fragment),
             Some(v) if v.mode == Mode::Divided && I::EVERY == 1 => {
                 self.draw_run(block, v.divided(edges), depth, shading.fragment);

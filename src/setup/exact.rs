@@ -37,7 +37,7 @@ fn extent(p: &ExactPosition, viewport: &Viewport) -> Extent {
 impl Tier for Exact {
     const NARROW: bool = false;
 
-    #[inline]
+    #[inline(never)]
     fn set_up([p, q, r]: [&ExactPosition; 3], viewport: &Viewport) -> Option<Setup> {
         let minors = [minor(q, r), minor(r, p), minor(p, q)];
         let [a, b, c] = minors[0];

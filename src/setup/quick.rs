@@ -24,7 +24,7 @@ use crate::vertex::{GUARD_BAND, HOMOGENEOUS_BITS, Quick, QuickPosition, Viewport
 impl<const BITS: u32> Tier for Quick<BITS> {
     const NARROW: bool = true;
 
-    #[inline]
+    #[inline(never)]
     fn set_up(vertices: [&QuickPosition<BITS>; 3], viewport: &Viewport) -> Option<Setup> {
         let points = vertices.map(|v| v.in_pixels(viewport));
         let narrow = vertices.iter().all(|v| v.projected);

@@ -1,8 +1,9 @@
 //! A clock that counts instructions, on machines whose time is instructions (`-icount`).
 //!
 //! On Arm's MPS2 boards it is the first CMSDK timer, at 25 MHz (20 MHz on the AN505); with
-//! `-icount shift=6` an instruction takes 64 ns, so it ticks 1.6 (1.28) times an instruction, and the
-//! nearest whole number of instructions is exact. RISC-V counts retired instructions itself.
+//! `-icount shift=7` an instruction takes 128 ns, so it ticks 3.2 (2.56) times an instruction. A difference
+//! of two readings is off by less than a tick, so the nearest whole number of instructions is exact.
+//! RISC-V counts retired instructions itself.
 
 /// Starts the clock.
 #[cfg(target_arch = "arm")]

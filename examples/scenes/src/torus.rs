@@ -76,6 +76,7 @@ pub fn model_position(index: usize) -> ModelPosition {
 /// # Errors
 ///
 /// None in practice: the numbers are constants in range.
+#[inline(never)]
 pub fn transform() -> Result<Mat4, MatrixError> {
     const ABOUT_X: SinCos = rotation(0.6);
     const ABOUT_Y: SinCos = rotation(0.9);
