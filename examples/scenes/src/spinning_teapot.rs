@@ -115,15 +115,45 @@ where
     T: Tier,
     I: Correction,
 {
-    let world = camera(frame.viewport().aspect(), moment)?;
-    let turned = Mat4::rotation_y(Angle(FIRST_ANGLE.0.wrapping_add(moment.angle().0)).sin_cos());
-    let lit = Lit::new(world.times(&turned)?, &turned, TOWARDS_LIGHT, AMBIENT, DIFFUSE)?;
+    let world = camera(frame.viewport().aspect(), FOCAL, moment)?;
+    let lit = teapot(&world, moment)?;
     frame.clear(BACKGROUND);
     // The nearer first: what it hides of the ground is not shaded.
     let teapot = frame.draw(&TEAPOT, &lit, &Gouraud, cache);
     let shader = Faded { texture: STONES, into: BACKGROUND };
     let ground = frame.draw(&GROUND, &world, &shader, cache);
     Ok(Drawn { teapot, ground })
+}
+
+/// Clears the frame to black and draws the teapot alone, `focal` half picture heights large.
+///
+/// For pictures so small that the ground would be noise. The frame and the cache are as for
+/// [`draw`].
+///
+/// # Errors
+///
+/// As for [`draw`]; and where `focal` is too large for the aspect.
+pub fn draw_teapot<C, D, T, I, const P: usize>(
+    frame: &mut Frame<C, D, Hither, T, I, P>,
+    moment: Moment,
+    focal: I16F16,
+    cache: &mut [Vertex<T, 3, P>],
+) -> Result<Counts, MatrixError>
+where
+    C: Target<Color = Rgb565>,
+    D: DepthTest,
+    T: Tier,
+    I: Correction,
+{
+    let lit = teapot(&camera(frame.viewport().aspect(), focal, moment)?, moment)?;
+    frame.clear(Rgb565::BLACK);
+    Ok(frame.draw(&TEAPOT, &lit, &Gouraud, cache))
+}
+
+/// The teapot's vertices, turned and lit.
+fn teapot(world: &Mat4, moment: Moment) -> Result<Lit, MatrixError> {
+    let turned = Mat4::rotation_y(Angle(FIRST_ANGLE.0.wrapping_add(moment.angle().0)).sin_cos());
+    Lit::new(world.times(&turned)?, &turned, TOWARDS_LIGHT, AMBIENT, DIFFUSE)
 }
 
 /// Clears and draws what a target shows of the scene: all of a viewport, or a band of it.
@@ -158,12 +188,12 @@ where
 }
 
 /// From the world to clip space.
-fn camera(aspect: I16F16, moment: Moment) -> Result<Mat4, MatrixError> {
+fn camera(aspect: I16F16, focal: I16F16, moment: Moment) -> Result<Mat4, MatrixError> {
     let [x, y, z] = EYE;
     let eye = [x, y + SWAY * moment.angle().sin_cos().sin, z];
     let up = [I16F16::ZERO, I16F16::ONE, I16F16::ZERO];
     let view = Mat4::look_at(eye, TARGET, up)?;
-    Mat4::perspective(FOCAL, aspect, NEAR, FAR)?.times(&view)
+    Mat4::perspective(focal, aspect, NEAR, FAR)?.times(&view)
 }
 
 /// A constant that Q16.16 holds.
