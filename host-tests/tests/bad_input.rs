@@ -125,6 +125,16 @@ fn what_is_behind_the_eye_is_counted() {
 }
 
 #[test]
+fn the_empty_vertex_has_no_area() {
+    let empty = hither::Vertex::<Quick<8>, 0>::EMPTY;
+    let mut words = [0u16; 16];
+    let buffer = Framebuffer::<Rgb565>::try_new(&mut words, 4, 4).expect("16 pixels");
+    let mut frame = Frame::new(buffer).expect("small").with_tier(Quick::<8>);
+    let outcome = frame.draw_snapped([&empty; 3], &Flat(Rgb565::WHITE));
+    assert_eq!((outcome, words), (Outcome::ZeroArea, [0; 16]));
+}
+
+#[test]
 fn what_has_no_area_is_counted() {
     let square = Square::new();
     let all = square.faces.len() as u32;

@@ -146,11 +146,9 @@ impl<const BITS: u32> QuickPosition<BITS> {
     pub(crate) fn first_pixel(&self, viewport: &Viewport) -> [i32; 2] {
         let [width, height] = [viewport.width, viewport.height];
         if self.projected {
-            let first = |v: i32, side: i32| {
-                // Not `clamp`: it has a panic path, for ends that cross.
-                ((v + (Quick::<BITS>::PIXEL / 2 - 1)) >> BITS).min(side).max(0)
-            };
-            [first(self.x, width), first(self.y, height)]
+            let first = |v: i32| (v + (Quick::<BITS>::PIXEL / 2 - 1)) >> BITS;
+            // Sides are positive; `clamp` would keep a panic for negative ones in the binary.
+            [first(self.x).min(width).max(0), first(self.y).min(height).max(0)]
         } else {
             let [x, y, w] = self.in_pixels(viewport).map(low);
             let sign = w.signum();
