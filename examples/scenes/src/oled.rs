@@ -18,6 +18,12 @@ const KNOBS: (Quick<8>, PerspectiveEvery<16>) = (Quick, PerspectiveEvery);
 /// What a vertex cache is made of.
 pub type CacheEntry = Vertex<Quick<8>, 3>;
 
+/// Frames a turn that the boards draw, from number 0.
+pub const FRAMES: u32 = 48;
+
+/// The last frame of a turn: what a board's panel shows in the end.
+pub const LAST: Moment = Moment { number: FRAMES - 1, frames: FRAMES };
+
 /// Pixels across the grey panel.
 pub const GRAY_WIDTH: u32 = 128;
 
