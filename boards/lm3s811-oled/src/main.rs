@@ -25,7 +25,7 @@ static BUFFERS: ConstStaticCell<MonoBuffers> = ConstStaticCell::new(MonoBuffers:
 
 /// Entries of the vertex cache: what RAM allows. The vertices beyond are transformed again where
 /// they are used; the picture is the same.
-const CACHED: usize = 48;
+const CACHED: usize = 64;
 
 static CACHE: ConstStaticCell<[CacheEntry; CACHED]> =
     ConstStaticCell::new([CacheEntry::EMPTY; CACHED]);

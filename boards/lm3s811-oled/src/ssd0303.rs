@@ -26,9 +26,9 @@ const ADDRESS: u32 = 0x3D;
 /// Bits a second on the bus.
 const BAUD: u32 = 100_000;
 
-/// System clocks that the SSD0303 gets between bytes: 0.1 ms, as long as a byte takes. OSRAM's
-/// panel misses bytes that follow at once.
-const REST: u32 = HERTZ / 10_000;
+/// Turns of the waiting loop, three clocks each on a Cortex-M3, that the SSD0303 gets between bytes:
+/// 0.1 ms, as long as a byte takes. It misses bytes that follow at once.
+const REST: u32 = HERTZ / 10_000 / 3;
 
 /// Control byte: one byte of a command follows, then another control byte.
 const COMMAND: u8 = 0x80;
