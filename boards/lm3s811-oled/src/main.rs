@@ -1,4 +1,4 @@
-//! The turning teapot four times over on the EK-LM3S811's OLED.
+//! The turning teapot, at four moments side by side, on the EK-LM3S811's OLED.
 //!
 //! A turn is drawn frame after frame; then the chip resets itself and turns again. What each frame
 //! took is printed over UART0.
@@ -7,15 +7,13 @@
 
 mod ssd0303;
 
-use core::fmt::{self, Write};
-use cortex_m::peripheral::SCB;
+use core::fmt::Write;
 use cortex_m_rt::entry;
-use hither_scenes::SceneError;
 use hither_scenes::oled::{CacheEntry, FRAMES, MonoBuffers, mono_96x16};
 use hither_scenes::spinning_teapot::Moment;
-use lm3s::clock::{self, Crystal};
+use lm3s::clock::Crystal;
 use lm3s::cycles::{Cycles, Report};
-use lm3s::registers::Timeout;
+use lm3s::turn::{Failure, play};
 use lm3s::uart::Uart;
 use panic_halt as _;
 use ssd0303::Ssd0303;
@@ -30,71 +28,16 @@ const CACHED: usize = 64;
 static CACHE: ConstStaticCell<[CacheEntry; CACHED]> =
     ConstStaticCell::new([CacheEntry::EMPTY; CACHED]);
 
-/// Why the turn ended early.
-enum Failure {
-    /// The PLL did not lock.
-    Clock,
-    /// The picture could not be drawn.
-    Scene(SceneError),
-    /// The panel did not take it.
-    Panel(ssd0303::Error),
-    /// The peripherals or the buffers were taken before.
-    Taken,
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Clock => f.write_str("the PLL does not lock"),
-            Self::Scene(error) => error.fmt(f),
-            Self::Panel(error) => error.fmt(f),
-            Self::Taken => f.write_str("the peripherals or the buffers are taken"),
-        }
-    }
-}
-
-impl From<Timeout> for Failure {
-    fn from(Timeout: Timeout) -> Self {
-        Self::Clock
-    }
-}
-
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
-        Self::Scene(error)
-    }
-}
-
-impl From<ssd0303::Error> for Failure {
-    fn from(error: ssd0303::Error) -> Self {
-        Self::Panel(error)
-    }
-}
-
 #[entry]
 fn main() -> ! {
-    let clock = clock::start(Crystal::Mhz6);
-    let mut uart = Uart::start();
-    if let Err(failure) = clock.map_err(Failure::from).and_then(|()| turn(&mut uart)) {
-        // A report that does not get out changes nothing: the panel keeps its last frame.
-        let _ = writeln!(uart, "stopped: {failure}");
-        loop {
-            cortex_m::asm::wfi();
-        }
-    }
-    uart.flush();
-    // The next turn starts from a chip as new. An emulator that stops at a reset keeps the last
-    // frame on its panel, to be compared.
-    SCB::sys_reset()
+    play(Crystal::Mhz6, turn)
 }
 
 /// Draws and shows each frame of a turn.
-fn turn(uart: &mut Uart) -> Result<(), Failure> {
-    let core = cortex_m::Peripherals::take().ok_or(Failure::Taken)?;
-    let mut cycles = Cycles::start(core.SYST);
-    let mut panel = Ssd0303::start()?;
+fn turn(cycles: &mut Cycles, uart: &mut Uart) -> Result<(), Failure<ssd0303::Error>> {
     let buffers = BUFFERS.try_take().ok_or(Failure::Taken)?;
     let cache = CACHE.try_take().ok_or(Failure::Taken)?;
+    let mut panel = Ssd0303::start().map_err(Failure::Panel)?;
     for number in 0..FRAMES {
         let moment = Moment { number, frames: FRAMES };
         let (picture, draw) = cycles.count(|| mono_96x16(moment, buffers, cache));
@@ -102,10 +45,10 @@ fn turn(uart: &mut Uart) -> Result<(), Failure> {
         let is_faulty = cfg!(feature = "fault-skip-last-flush") && number + 1 == FRAMES;
         let pages = if is_faulty { picture.len() - 1 } else { picture.len() };
         let (shown, send) = cycles.count(|| panel.show(picture, pages));
-        shown?;
+        shown.map_err(Failure::Panel)?;
         if number == 0 {
             // Not before: memory holds anything when power comes on.
-            panel.light()?;
+            panel.light().map_err(Failure::Panel)?;
         }
         // A report that does not get out changes nothing.
         let _ = writeln!(uart, "{}", Report { number, draw, send });
