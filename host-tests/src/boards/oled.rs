@@ -7,7 +7,6 @@ pub mod ppm;
 pub mod qmp;
 
 use crate::boards::screen::Screen;
-use crate::cross;
 use hither_scenes::oled::{
     CacheEntry, GRAY_HEIGHT, GRAY_WIDTH, GrayBuffers, LAST, MONO_HEIGHT, MONO_WIDTH, MonoBuffers,
     gray_128x64, mono_96x16,
@@ -21,7 +20,6 @@ use std::io::{ErrorKind, Read};
 use std::os::unix::net::UnixListener;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
@@ -247,64 +245,6 @@ pub fn expected_mono() -> Screen {
     let pixels = rows.flat_map(|y| (0..MONO_WIDTH as usize).map(move |x| lit(x, y)));
     let rgb = pixels.flat_map(|lit| [255 * lit; 3]).collect();
     Screen { width: MONO_WIDTH, height: MONO_HEIGHT, rgb }
-}
-
-impl Board {
-    /// Builds the firmware; the path of the program. The faulty one leaves out the end of the last
-    /// picture.
-    ///
-    /// # Errors
-    ///
-    /// The toolchain's or the compiler's words.
-    pub fn build(&self, is_faulty: bool) -> Result<PathBuf, String> {
-        // Both kinds are built to one path, and copied away before the other is built.
-        static BUILDS: Mutex<()> = Mutex::new(());
-        let _one_at_a_time = BUILDS.lock().map_err(|error| error.to_string())?;
-        let mut command = cross::cargo("build", TARGET)?;
-        command.args(["--release", "--bin", self.name]);
-        if is_faulty {
-            command.args(["--features", "fault-skip-last-flush"]);
-        }
-        cross::run(command.current_dir(cross::root().join("boards").join(self.name)))?;
-        let program = cross::target_folder().join(TARGET).join("release").join(self.name);
-        let kept = program.with_extension(if is_faulty { "fault.elf" } else { "elf" });
-        fs::copy(&program, &kept).map_err(|error| format!("{}: {error}", program.display()))?;
-        Ok(kept)
-    }
-
-    /// Builds the firmware, runs it, and compares its panel with the host's picture.
-    ///
-    /// # Errors
-    ///
-    /// As for [`build`](Self::build) and [`capture`]; where they differ; or where what was printed
-    /// is no report of every frame.
-    pub fn check(&self) -> Result<Capture, String> {
-        let capture = self.captured(false)?;
-        capture.screen.equals(&(self.expected)())?;
-        let (frames, wanted) = (capture.costs()?.len(), LAST.frames as usize);
-        if frames == wanted {
-            Ok(capture)
-        } else {
-            Err(format!("{frames} of {wanted} frames are reported"))
-        }
-    }
-
-    /// Checks that a firmware that leaves out the end of the last picture is told from a good one;
-    /// how it differs.
-    ///
-    /// # Errors
-    ///
-    /// As for [`build`](Self::build) and [`capture`]; and where nothing differs.
-    pub fn check_fault(&self) -> Result<String, String> {
-        match self.captured(true)?.screen.equals(&(self.expected)()) {
-            Err(difference) => Ok(difference),
-            Ok(()) => Err("the fault does not show".to_owned()),
-        }
-    }
-
-    fn captured(&self, is_faulty: bool) -> Result<Capture, String> {
-        capture(self.machine, &self.build(is_faulty)?, self.size)
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The board `pico-st7789` on an emulated RP2040 with a model of its panel, in JavaScript.
 
 use super::screen::Screen;
-use crate::cross::{root, run};
+use crate::cross::{root, run, target_folder};
 use hither::{Framebuffer, PerspectiveEvery, Quick, Rgb565, Vertex, Viewport};
 use hither_examples::rgb565;
 use hither_scenes::spinning_teapot::{Moment, VERTEX_COUNT, draw_onto};
@@ -199,10 +199,64 @@ fn shown(panel: &Value, memory: &[u8]) -> Result<Screen, String> {
     Ok(Screen { width: SIDE, height: SIDE, rgb: rgb565::expand_all(&seen) })
 }
 
+/// An ELF file for flash with these Thumb instructions at its start.
+fn firmware(thumb: &[u16]) -> Vec<u8> {
+    let mut boot2 = [0; 252];
+    for (at, instruction) in thumb.iter().enumerate() {
+        boot2[2 * at..2 * at + 2].copy_from_slice(&instruction.to_le_bytes());
+    }
+    let crc = boot2.iter().fold(u32::MAX, |crc, &byte| {
+        let step = |crc: u32, _| (crc << 1) ^ if crc >> 31 == 1 { 0x04c1_1db7 } else { 0 };
+        (0..8).fold(crc ^ u32::from(byte) << 24, step)
+    });
+    let mut elf = vec![0; 52];
+    elf[..6].copy_from_slice(b"\x7fELF\x01\x01");
+    // For Arm; one program header, of 32 bytes, behind this one.
+    (elf[18], elf[28], elf[42], elf[44]) = (40, 52, 32, 1);
+    let header = [1, 84, 0x1000_0000, 0x1000_0000, 256, 256, 5, 4];
+    elf.extend(header.iter().flat_map(|word: &u32| word.to_le_bytes()));
+    elf.extend(boot2);
+    elf.extend(crc.to_le_bytes());
+    elf
+}
+
+/// Checks that a run ends, with a sentence, whatever the firmware does: asleep for ever, busy for ever, panicked, or no
+/// firmware at all.
+///
+/// # Errors
+///
+/// Which one ended otherwise, and how.
+pub fn check_ends() -> Result<(), String> {
+    const WFI: u16 = 0xbf30;
+    const BRANCH_BACK: u16 = 0xe7fd;
+    const BRANCH_HERE: u16 = 0xe7fe;
+    const UDF: u16 = 0xde00;
+    let asleep = firmware(&[WFI, BRANCH_BACK]);
+    let mut spoiled = asleep.clone();
+    *spoiled.last_mut().expect("256 bytes and more") ^= 1;
+    let cases = [
+        ("asleep.elf", asleep, "asleep for ever, after 0 of 2 frames"),
+        ("busy.elf", firmware(&[BRANCH_HERE]), "0 of 2 frames after 4000 ms"),
+        ("panic.elf", firmware(&[UDF]), "the firmware panicked (at 0x1000000"),
+        ("spoiled.elf", spoiled, "boot2) is wrong"),
+        ("text.elf", b"text".to_vec(), "not an ELF file for Arm"),
+    ];
+    let folder = target_folder();
+    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    for (name, elf, expected) in cases {
+        let path = folder.join(name);
+        std::fs::write(&path, elf).map_err(|e| format!("{}: {e}", path.display()))?;
+        match capture(&path, &Options::default()) {
+            Err(why) if why.contains(expected) => {}
+            other => return Err(format!("{name} ended with {other:?}")),
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cross::{build, target_folder};
 
     const LINE: &str = r#"{"frames":[{"cycles":9,"instructions":8},{"cycles":7,"instructions":6}],
         "panel":{"on":true,"asleep":false,"inverted":true,"colmod":85,"errors":[]}}"#;
@@ -247,94 +301,5 @@ mod tests {
     #[test]
     fn the_last_moment_is_that_of_the_last_frame() {
         assert_eq!(Options::default().last_moment(), Moment { number: 1, frames: 64 });
-    }
-
-    /// An ELF file for flash with these Thumb instructions at its start.
-    fn firmware(thumb: &[u16]) -> Vec<u8> {
-        let mut boot2 = [0; 252];
-        for (at, instruction) in thumb.iter().enumerate() {
-            boot2[2 * at..2 * at + 2].copy_from_slice(&instruction.to_le_bytes());
-        }
-        let crc = boot2.iter().fold(u32::MAX, |crc, &byte| {
-            let step = |crc: u32, _| (crc << 1) ^ if crc >> 31 == 1 { 0x04c1_1db7 } else { 0 };
-            (0..8).fold(crc ^ u32::from(byte) << 24, step)
-        });
-        let mut elf = vec![0; 52];
-        elf[..6].copy_from_slice(b"\x7fELF\x01\x01");
-        // For Arm; one program header, of 32 bytes, behind this one.
-        (elf[18], elf[28], elf[42], elf[44]) = (40, 52, 32, 1);
-        let header = [1, 84, 0x1000_0000, 0x1000_0000, 256, 256, 5, 4];
-        elf.extend(header.iter().flat_map(|word: &u32| word.to_le_bytes()));
-        elf.extend(boot2);
-        elf.extend(crc.to_le_bytes());
-        elf
-    }
-
-    #[test]
-    #[ignore = "needs node and npm"]
-    fn a_run_always_ends() {
-        const WFI: u16 = 0xbf30;
-        const BRANCH_BACK: u16 = 0xe7fd;
-        const BRANCH_HERE: u16 = 0xe7fe;
-        const UDF: u16 = 0xde00;
-        let why = |name: &str, elf: &[u8]| {
-            let folder = target_folder();
-            std::fs::create_dir_all(&folder).unwrap();
-            let path = folder.join(name);
-            std::fs::write(&path, elf).unwrap();
-            capture(&path, &Options::default()).unwrap_err()
-        };
-        let check = |name, elf: &[u8], expected: &str| {
-            let error = why(name, elf);
-            assert!(error.contains(expected), "{name}: {error}");
-        };
-        let asleep = firmware(&[WFI, BRANCH_BACK]);
-        check("asleep.elf", &asleep, "asleep for ever, after 0 of 2 frames");
-        check("busy.elf", &firmware(&[BRANCH_HERE]), "0 of 2 frames after 4000 ms");
-        check("panic.elf", &firmware(&[UDF]), "the firmware panicked (at 0x1000000");
-        let mut spoiled = asleep;
-        *spoiled.last_mut().unwrap() ^= 1;
-        check("spoiled.elf", &spoiled, "boot2) is wrong");
-        check("text.elf", b"text", "not an ELF file for Arm");
-    }
-
-    /// Builds a firmware and compares what the emulated panel shows with the host's picture.
-    fn check(
-        board: &str,
-        program: &str,
-        features: &[&str],
-        options: Options,
-    ) -> Result<(), String> {
-        let elf = build(board, program, features, "thumbv6m-none-eabi")?;
-        let start = std::time::Instant::now();
-        let run = capture(&elf, &options)?;
-        let lost = options.lose_byte.map_or(String::new(), |byte| format!("-lost-{byte}"));
-        let name = elf.file_name().unwrap_or_default().to_string_lossy();
-        run.screen.write_png(&target_folder().join(format!("pico-{name}{lost}.png")), 2)?;
-        let (instructions, cycles) = (run.instructions_per_frame, run.cycles_per_frame);
-        let seconds = start.elapsed().as_secs_f64();
-        println!("{program}: {instructions} instructions, {cycles} cycles, {seconds:.1} s");
-        run.screen.equals(&expected(options.last_moment()))
-    }
-
-    #[test]
-    #[ignore = "needs a bare-metal toolchain, node and npm"]
-    fn firmwares_show_the_hosts_picture() {
-        let sound = Options::default();
-        assert_eq!(check("pico-st7789", "bands", &[], sound), Ok(()));
-        assert_eq!(check("pico-st7789", "frame", &[], sound), Ok(()));
-        assert_eq!(check("pico-st7789/embassy", "embassy", &[], sound), Ok(()));
-    }
-
-    #[test]
-    #[ignore = "needs a bare-metal toolchain, node and npm"]
-    fn faults_are_seen() {
-        let once = Options { frames: 1, lose_byte: None };
-        let skipped = check("pico-st7789", "bands", &["fault-skip-last-flush"], once);
-        println!("{skipped:?}");
-        assert!(skipped.unwrap_err().contains("pixels differ"));
-        let lost = check("pico-st7789", "bands", &[], Options { lose_byte: Some(50_001), ..once });
-        println!("{lost:?}");
-        assert!(lost.unwrap_err().contains("pixels differ"));
     }
 }

@@ -190,7 +190,7 @@ fn same(written: &str, measured: &str) -> Result<(), String> {
 }
 
 /// Whether two cells are equal, or numbers within a share of each other.
-fn close(old: &str, new: &str, tolerance: f64) -> bool {
+pub(crate) fn close(old: &str, new: &str, tolerance: f64) -> bool {
     let number = |cell: &str| cell.trim_end_matches(" M").parse::<f64>().ok();
     match (number(old), number(new)) {
         (Some(a), Some(b)) if tolerance > 0.0 => (a - b).abs() <= tolerance * b.abs(),
