@@ -1,6 +1,7 @@
 //! Bands sent by DMA.
 
 use crate::panel::{PanelError, open_window};
+use embedded_dma::ReadBuffer;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::spi::SpiBus;
 use embedded_hal_bus::spi::DeviceError;
@@ -11,17 +12,30 @@ use rp2040_hal::dma::{SingleChannel, WriteTarget, single_buffer};
 /// A band's words, in the panel's byte order.
 pub type Words = &'static mut [u16];
 
-/// The same as bytes: what DMA reads.
-type Bytes = &'static mut [u8];
+/// A buffer whose first words DMA reads: those of its band.
+struct Sent {
+    words: Words,
+    pixels: usize,
+}
+
+// SAFETY: the words are static and borrowed for good by this value alone, which nothing changes while a transfer
+// holds it: they stay where they are and what they are, and so does the length.
+unsafe impl ReadBuffer for Sent {
+    type Word = u8;
+
+    unsafe fn read_buffer(&self) -> (*const u8, usize) {
+        let bytes: &[u8] = bytemuck::cast_slice(self.words.get(..self.pixels).unwrap_or_default());
+        (bytes.as_ptr(), bytes.len())
+    }
+}
 
 /// The panel, fed by a DMA channel.
 ///
 /// A buffer moves into the transfer and comes back when the panel has it, and so do the channel and
-/// the bus: nothing else can use them meanwhile. DMA sends a buffer whole, so a buffer is as long as
-/// the band.
+/// the bus: nothing else can use them meanwhile.
 pub struct DmaPanel<C: SingleChannel, S: WriteTarget, CS, DC> {
     idle: Option<(C, S)>,
-    in_flight: Option<single_buffer::Transfer<C, Bytes, S>>,
+    in_flight: Option<single_buffer::Transfer<C, Sent, S>>,
     /// A buffer that came back, or could not be sent.
     returned: Option<Words>,
     cs: CS,
@@ -61,20 +75,20 @@ where
             self.cs.set_low().map_err(in_cs)?;
         }
         if let Some(((channel, spi), words)) = self.idle.take().zip(self.returned.take()) {
-            let bytes = bytemuck::cast_slice_mut(words);
-            self.in_flight = Some(single_buffer::Config::new(channel, bytes, spi).start());
+            let sent = Sent { words, pixels: band.pixels() };
+            self.in_flight = Some(single_buffer::Config::new(channel, sent, spi).start());
         }
         Ok(())
     }
 
     fn finish(&mut self) -> Result<Option<Words>, Self::Error> {
         if let Some(transfer) = self.in_flight.take() {
-            let (channel, bytes, mut spi) = transfer.wait();
+            let (channel, sent, mut spi) = transfer.wait();
             // DMA is done when the last bytes are in SPI's queue: chip select has to wait until they
             // are on the wire as well.
             let flushed = spi.flush();
             self.idle = Some((channel, spi));
-            self.returned = Some(bytemuck::cast_slice_mut(bytes));
+            self.returned = Some(sent.words);
             flushed.map_err(|error| SpiError::Spi(DeviceError::Spi(error)))?;
             self.cs.set_high().map_err(in_cs)?;
         }

@@ -129,12 +129,13 @@ fn figures(passed: &Passed) -> String {
 fn document(passed: &[(String, Passed)], write: bool) -> Result<(), String> {
     let path = root().join("boards/README.md");
     let text = std::fs::read_to_string(&path).map_err(|error| error.to_string())?;
+    let toolchain = toolchain(MACHINES[0].target)?;
     if write {
-        let text = table::updated(&text, passed);
+        let text = table::updated(&text, passed, &toolchain);
         return std::fs::write(&path, text).map_err(|error| error.to_string());
     }
     let listed = passed.iter().filter(|(_, passed)| passed.flash.is_some()).count();
-    let rows = table::compare(&text, passed, &toolchain(MACHINES[0].target)?)?;
+    let rows = table::compare(&text, passed, &toolchain)?;
     if rows < listed {
         return Err(format!("{rows} rows for {listed} programs"));
     }

@@ -7,7 +7,7 @@
 //!
 //! Prints a table, and writes `target/measure.csv` and, with `m4f` and `m0` and all workloads, `target/size.csv`.
 //! Instructions are executed ones, the same number run after run. `--check` fails where the tables of figures in
-//! README.md and docs/figures.md say something else; `--write` writes them anew.
+//! README.md and docs/figures.md say something else, or where the stack is over its budget; `--write` writes them anew.
 
 use hither_examples::picture::target_folder;
 use hither_scenes::workloads::Workload;
@@ -116,6 +116,9 @@ fn measure(asked: &Asked) -> Result<(), String> {
     write_csv(&target_folder().join("measure.csv"), &figures, &toolchain)?;
     if !sizes.is_empty() {
         size::write_csv(&target_folder().join("size.csv"), &sizes, &toolchain)?;
+    }
+    if asked.documents == Documents::Check {
+        size::check_stack(&sizes)?;
     }
     tables(asked.documents, &blocks(&figures, &sizes, &toolchain))
 }

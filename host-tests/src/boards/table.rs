@@ -3,17 +3,24 @@
 use super::cases::Passed;
 use crate::measure::readme::close;
 
-/// A table with the figures of those that were measured: rows whose first cell starts with a board's name.
+/// A table with the figures of those that were measured: rows whose first cell starts with a board's name; and with the
+/// toolchain that made them.
 ///
 /// The last three cells of a row are flash, RAM and instructions a frame.
 #[must_use]
-pub fn updated(document: &str, measured: &[(String, Passed)]) -> String {
+pub fn updated(document: &str, measured: &[(String, Passed)], toolchain: &str) -> String {
     let line = |line: &str| {
+        if line.starts_with(MADE_BY) {
+            return format!("{MADE_BY}{toolchain}`.");
+        }
         let found = measured.iter().find(|(name, _)| key(line).as_deref() == Some(name));
         found.map_or(line.to_owned(), |(_, passed)| with_figures(line, passed))
     };
     document.lines().map(line).map(|line| line + "\n").collect()
 }
+
+/// The line that says which toolchain made the figures.
+const MADE_BY: &str = "Made by `";
 
 /// Whether a table has the figures of those that were measured, to 3% where another toolchain made it; gives how many
 /// rows were compared.
@@ -28,7 +35,8 @@ pub fn compare(
 ) -> Result<usize, String> {
     let tolerance = if document.contains(toolchain) { 0.0 } else { 0.03 };
     let mut compared = 0;
-    for (written, measured) in document.lines().zip(updated(document, measured).lines()) {
+    let updated = updated(document, measured, toolchain);
+    for (written, measured) in document.lines().zip(updated.lines()) {
         let Some(_) = key(written) else { continue };
         let cells = |row: &str| row.split('|').map(|c| c.trim().to_owned()).collect::<Vec<_>>();
         let (old, new) = (cells(written), cells(measured));
@@ -64,7 +72,7 @@ fn with_figures(row: &str, passed: &Passed) -> String {
 mod tests {
     use super::*;
 
-    const TABLE: &str = "By `rustc 1`.\n\
+    const TABLE: &str = "Made by `rustc 1`.\n\
         | board | flash | RAM | instructions |\n\
         | [pico](pico), bands | 1 | 2 | 3 |\n\
         | [other](other) | 1 | 2 | - |\n";
@@ -81,7 +89,7 @@ mod tests {
 
     #[test]
     fn rows_get_the_figures_of_their_program() {
-        let updated = updated(TABLE, &measured(1000));
+        let updated = updated(TABLE, &measured(1000), "rustc 1");
         assert_eq!(updated, TABLE.replace("1 | 2 | 3", "1000 | 20 | 300"));
         assert_eq!(compare(&updated, &measured(1000), "rustc 1"), Ok(2));
         let error = compare(&updated, &measured(1001), "rustc 1").unwrap_err();

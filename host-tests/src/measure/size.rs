@@ -75,6 +75,23 @@ pub fn measure(machine: &Machine, mut done: impl FnMut()) -> Result<Vec<Size>, S
     Ok(sizes)
 }
 
+/// Bytes of stack that the whole pipeline, W6g, may take.
+pub const STACK_LIMIT: u64 = 1536;
+
+/// Whether W6g's stack is within [`STACK_LIMIT`] in every tier.
+///
+/// # Errors
+///
+/// Where it is not, with both numbers.
+pub fn check_stack(sizes: &[Size]) -> Result<(), String> {
+    match sizes.iter().find(|size| size.workload == "W6g" && size.stack > STACK_LIMIT) {
+        None => Ok(()),
+        Some(Size { isa, tier, stack, .. }) => {
+            Err(format!("{isa}: W6g takes {stack} bytes of stack in {tier}: at most {STACK_LIMIT}"))
+        }
+    }
+}
+
 /// Builds a firmware of these features, and runs it for its stack.
 fn bytes(machine: &Machine, features: &str) -> Result<Bytes, String> {
     let program = build_size(machine, features)?;
@@ -97,7 +114,8 @@ pub fn build_size(machine: &Machine, features: &str) -> Result<std::path::PathBu
     build("emulator", "size", machine.target, &arguments)
 }
 
-/// Bytes of flash (code, constants, and what static variables start from) and of RAM (static variables) in a program.
+/// Bytes of flash (code, constants, and what static variables start from) and of RAM (static variables, without the
+/// stack) in a program.
 ///
 /// # Errors
 ///
@@ -107,7 +125,9 @@ pub fn sections(file: &[u8]) -> Result<(u64, u64), object::Error> {
     let (mut flash, mut ram) = (0, 0);
     for section in object::File::parse(file)?.sections() {
         let SectionFlags::Elf { sh_flags } = section.flags() else { continue };
-        if sh_flags & ALLOC == 0 {
+        // Some linker scripts make a section of the RAM that is left, and dummies of addresses that memory mirrors.
+        let name = section.name()?;
+        if sh_flags & ALLOC == 0 || name == ".stack" || name.ends_with("_dummy") {
             continue;
         }
         match section.kind() {
@@ -138,4 +158,23 @@ pub fn write_csv(path: &Path, sizes: &[Size], toolchain: &str) -> Result<(), Str
         row
     });
     write_rows(path, &heading, rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_deep_stack_is_an_error() {
+        let size =
+            |workload, stack| Size { isa: "m0", workload, tier: "exact", flash: 1, ram: 2, stack };
+        assert_eq!(check_stack(&[size("W6g", STACK_LIMIT), size("W5", 9999)]), Ok(()));
+        let error = check_stack(&[size("W6g", 1537)]).unwrap_err();
+        assert_eq!(error, "m0: W6g takes 1537 bytes of stack in exact: at most 1536");
+    }
+
+    #[test]
+    fn a_program_that_is_none_is_an_error() {
+        assert!(sections(b"not a program").is_err());
+    }
 }
