@@ -7,9 +7,10 @@
 //! Error budget for `N = 16` in the exact tier, in stored units of 2^16 running ones (after
 //! Rossignac, section 9.3.1: the running value carries the bits that its additions lose):
 //! - each row starts from the exact edge functions. Where every vertex has `|z| <= 4 w`, the three
-//!   terms are at most 4 of the range, each within 2^-29 of itself: 2^-10 in all. Where one has not
-//!   (it is behind the eye, or far beyond far) terms may cancel: then the sum is made in 128 bits,
-//!   exactly but for 2^-60 of the largest term, and scaled once, within 2^-28: 2^-12;
+//!   terms are at most 4 of the range, each within 2^-29 of itself and 2^-28 of the range: 2^-9 in
+//!   all. Where one has not (it is behind the eye, or far beyond far) terms may cancel: then the sum
+//!   is made in 128 bits, exactly but for 2^-60 of the largest term, and scaled once, within 2^-28:
+//!   2^-12;
 //! - the step is rounded to half a running unit: 511 steps add 2^-8;
 //! - rounding to 16 bits adds 1/2.
 //!
@@ -21,7 +22,7 @@
 //! wraps.
 
 use crate::buffer::BufferSize;
-use crate::math::{Scale, Signed, align, combine, index, low, narrowed};
+use crate::math::{Factor, Scale, Signed, align, combine, index, low, narrowed};
 use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
@@ -95,17 +96,17 @@ pub trait DepthTest: core::fmt::Debug {
     #[doc(hidden)]
     const BITS: u32;
 
-    /// Tests `length` pixels from `(x, y)` of the buffer, nearest of two and stored where it
-    /// passes: a running value and its step a pixel. Yields whether each passes.
+    /// What is stored a pixel.
     #[doc(hidden)]
-    fn test(
-        &mut self,
-        x: i32,
-        y: i32,
-        length: i32,
-        running: u32,
-        step: u32,
-    ) -> impl Iterator<Item = bool>;
+    type Word: DepthWord;
+
+    /// The stored depths of `length` pixels from `(x, y)` of the buffer; none where there is no depth.
+    #[doc(hidden)]
+    fn row(&mut self, x: i32, y: i32, length: i32) -> &mut [Self::Word];
+
+    /// Tests a running value against a stored depth, and stores it where it passes.
+    #[doc(hidden)]
+    fn passes(running: u32, stored: &mut Self::Word) -> bool;
 
     /// Sets everything to the farthest depth.
     fn clear(&mut self);
@@ -117,10 +118,16 @@ pub struct NoDepth;
 
 impl DepthTest for NoDepth {
     const BITS: u32 = 0;
+    type Word = u16;
 
     #[inline]
-    fn test(&mut self, _: i32, _: i32, _: i32, _: u32, _: u32) -> impl Iterator<Item = bool> {
-        core::iter::repeat(true)
+    fn row(&mut self, _: i32, _: i32, _: i32) -> &mut [u16] {
+        &mut []
+    }
+
+    #[inline]
+    fn passes(_: u32, _: &mut u16) -> bool {
+        true
     }
 
     #[inline]
@@ -178,27 +185,23 @@ impl<'a, W: DepthWord, C: Compare> DepthBuffer<'a, W, C> {
 
 impl<W: DepthWord, C: Compare> DepthTest for DepthBuffer<'_, W, C> {
     const BITS: u32 = W::BITS;
+    type Word = W;
 
     #[inline]
-    fn test(
-        &mut self,
-        x: i32,
-        y: i32,
-        length: i32,
-        mut running: u32,
-        step: u32,
-    ) -> impl Iterator<Item = bool> {
+    fn row(&mut self, x: i32, y: i32, length: i32) -> &mut [W] {
         let start = index(y * self.width + x);
         let words = self.words.get_mut(start..start.saturating_add(index(length)));
-        words.unwrap_or_default().iter_mut().map(move |stored| {
-            let depth = W::from_running(running);
-            running = running.wrapping_add(step);
-            let passes = C::passes(depth, *stored);
-            if passes {
-                *stored = depth;
-            }
-            passes
-        })
+        words.unwrap_or_default()
+    }
+
+    #[inline]
+    fn passes(running: u32, stored: &mut W) -> bool {
+        let depth = W::from_running(running);
+        let passes = C::passes(depth, *stored);
+        if passes {
+            *stored = depth;
+        }
+        passes
     }
 
     fn clear(&mut self) {
@@ -219,12 +222,20 @@ pub(crate) struct DepthPlane {
 /// What turns edge functions into running values.
 #[derive(Clone, Copy, Debug)]
 enum Weights {
-    /// Running units a unit of each `E_i`, where none of the three terms is large.
-    Each([Signed; 3]),
+    /// Running units a unit of each `E_i`, where none of the three terms is large: a factor, and
+    /// whether it is negative.
+    Each([(Factor, bool); 3]),
     /// `k_i z_i` as integers on one scale, and the running units of their sum, where terms may
     /// cancel: the sum is exact, and scaled once.
     Sum([i128; 3], Scale),
 }
+
+/// Each of three terms that are not summed exactly is at most `2^TERM_BITS` running units: 4 of the
+/// range.
+const TERM_BITS: i32 = 34;
+
+/// No step that is taken is larger, in running units: the range.
+const STEEPEST: i64 = 1 << 32;
 
 /// A run of depths along a row.
 #[derive(Clone, Copy, Debug)]
@@ -251,13 +262,20 @@ impl DepthPlane {
             let raw = Scale::power_of_two(i32::from(v.shift));
             Signed::of(i64::from(v.z)).times(k).times(raw)
         });
-        let weights = if outside.0 & Outside::STEEP == 0 {
-            Weights::Each(values.map(|value| value.times(full)))
+        let steps = setup.a.map(|a| a << setup.step);
+        let (weights, step) = if outside.0 & Outside::STEEP == 0 {
+            let values = values.map(|value| value.times(full));
+            let ([u, v, w], [x, y, z]) = (values, steps);
+            let step = u.apply(x, 0).saturating_add(v.apply(y, 0)).saturating_add(w.apply(z, 0));
+            let factor = |v: Signed| (Factor::new(v.scale, TERM_BITS), v.negative);
+            (Weights::Each(values.map(factor)), step)
         } else {
             let (values, exponent) = align(values);
-            Weights::Sum(values, full.times(Scale::power_of_two(exponent)))
+            let scale = full.times(Scale::power_of_two(exponent));
+            (Weights::Sum(values, scale), sum(&values, scale, steps))
         };
-        let step = weights.apply(setup.a.map(|a| a << setup.step));
+        // A steeper step belongs to a single pixel, and is not taken.
+        let step = step.clamp(-STEEPEST, STEEPEST);
         Self { weights, step, half: (1i64 << (32 - bits)) >> 1 }
     }
 
@@ -266,7 +284,7 @@ impl DepthPlane {
     pub(crate) fn run(&self, span: Span, edges: [i64; 3]) -> DepthRun {
         let first = self.weights.apply(edges).saturating_add(self.half);
         let pixels = i64::from(span.x1 - 1 - span.x0);
-        let last = first.saturating_add(self.step.saturating_mul(pixels));
+        let last = first.saturating_add(self.step * pixels);
         let fits = |v: i64| v >= 0 && v <= i64::from(u32::MAX);
         DepthRun { first, step: self.step, inside: fits(first) && fits(last) }
     }
@@ -287,21 +305,29 @@ impl DepthRun {
 }
 
 impl Weights {
-    /// The running value where the edge functions are `edges`, or its step where these are theirs:
-    /// rounded, saturating.
+    /// The running value where the edge functions are `edges`, rounded, saturating.
     #[inline]
     fn apply(&self, edges: [i64; 3]) -> i64 {
         match self {
             Self::Each([u, v, w]) => {
                 let [x, y, z] = edges;
-                u.apply(x, 0).saturating_add(v.apply(y, 0)).saturating_add(w.apply(z, 0))
+                // Three terms of at most 2^59 (saturated, 2^61), in units of 2^-25.
+                let term = |&(factor, negative): &(Factor, bool), e: i64| {
+                    let product = factor.apply(e) >> 2;
+                    if negative { -product } else { product }
+                };
+                (term(u, x) + term(v, y) + term(w, z)) >> (59 - TERM_BITS)
             }
-            Self::Sum(values, scale) => {
-                let (sum, exponent) = narrowed(combine(*values, edges));
-                scale.apply(sum, exponent)
-            }
+            Self::Sum(values, scale) => sum(values, *scale, edges),
         }
     }
+}
+
+/// The running value of an exact sum, rounded, saturating. Not inlined: few triangles need it.
+#[inline(never)]
+fn sum(values: &[i128; 3], scale: Scale, edges: [i64; 3]) -> i64 {
+    let (sum, exponent) = narrowed(combine(*values, edges));
+    scale.apply(sum, exponent)
 }
 
 #[cfg(test)]
@@ -309,12 +335,23 @@ mod tests {
     use super::*;
     use std::vec::Vec;
 
+    /// Tests a run of pixels.
+    fn test<D: DepthTest>(
+        buffer: &mut D,
+        (x, y): (i32, i32),
+        length: i32,
+        running: u32,
+        step: u32,
+    ) -> Vec<bool> {
+        let runs = (0..).map(|i: u32| running.wrapping_add(i.wrapping_mul(step)));
+        buffer.row(x, y, length).iter_mut().zip(runs).map(|(d, r)| D::passes(r, d)).collect()
+    }
+
     #[test]
     fn nearer_passes_and_is_stored() {
         let mut words = [100u16, 100, 100, 100, 7];
         let mut buffer = DepthBuffer::try_new(&mut words, 2, 2).unwrap();
-        let passed: Vec<bool> = buffer.test(0, 1, 2, 99 << 16, 1 << 16).collect();
-        assert_eq!(passed, [true, false]);
+        assert_eq!(test(&mut buffer, (0, 1), 2, 99 << 16, 1 << 16), [true, false]);
         assert_eq!(buffer.into_words(), [100, 100, 99, 100, 7]);
     }
 
@@ -322,15 +359,15 @@ mod tests {
     fn always_stores_the_farthest_too() {
         let mut words = [u32::FAR; 4];
         let mut buffer = DepthBuffer::try_new(&mut words, 4, 1).unwrap().with_compare(Always);
-        assert_eq!(buffer.test(1, 0, 2, u32::MAX, 0).filter(|p| *p).count(), 2);
+        assert_eq!(test(&mut buffer, (1, 0), 2, u32::MAX, 0), [true, true]);
     }
 
     #[test]
     fn outside_of_the_buffer_nothing_is_touched() {
         let mut words = [9u16; 4];
         let mut buffer = DepthBuffer::try_new(&mut words, 2, 2).unwrap();
-        assert_eq!(buffer.test(0, 2, 2, 0, 0).count(), 0);
-        assert_eq!(buffer.test(-1, 0, 2, 0, 0).count(), 0);
+        assert_eq!(test(&mut buffer, (0, 2), 2, 0, 0), []);
+        assert_eq!(test(&mut buffer, (-1, 0), 2, 0, 0), []);
         buffer.clear();
         assert_eq!(words, [u16::MAX; 4]);
     }

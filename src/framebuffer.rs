@@ -43,6 +43,20 @@ pub trait Target {
     /// target; those that are `None` keep what they were.
     fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<Self::Color>>);
 
+    /// Writes pixels of row `y` from column `x` on, one for each of `lanes`, all inside of the target:
+    /// what `color` makes of it. One counter for both is less than an iterator's two.
+    #[doc(hidden)]
+    #[inline]
+    fn write_each<L>(
+        &mut self,
+        x: usize,
+        y: usize,
+        lanes: &mut [L],
+        color: impl FnMut(&mut L) -> Option<Self::Color>,
+    ) {
+        self.write(x, y, lanes.iter_mut().map(color));
+    }
+
     /// Fills `length` pixels of row `y` from column `x` on with one colour.
     #[inline]
     fn fill(&mut self, x: usize, y: usize, length: usize, color: Self::Color) {
@@ -124,6 +138,21 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
     fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<F::Color>>) {
         for (word, color) in self.from(x, y).iter_mut().zip(colors) {
             if let Some(color) = color {
+                *word = F::encode(color);
+            }
+        }
+    }
+
+    #[inline]
+    fn write_each<L>(
+        &mut self,
+        x: usize,
+        y: usize,
+        lanes: &mut [L],
+        mut color: impl FnMut(&mut L) -> Option<F::Color>,
+    ) {
+        for (word, lane) in self.from(x, y).iter_mut().zip(lanes) {
+            if let Some(color) = color(lane) {
                 *word = F::encode(color);
             }
         }

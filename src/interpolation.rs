@@ -7,21 +7,24 @@
 //! vertices' `w`, and `u = u_0 + sum((u_i - u_0) beta_i) / q` is between the vertices' values.
 //! Affine (section 6, equation 5) takes `[k_i w_i u_i]` instead: then `q` is 1.
 //!
-//! Formats: weights Q32 in `i64`; `q` and the numerators `n` Q30 in `i32`, where `n` is in units of
+//! Formats: weights Q32; `q` and the numerators `n` Q30 in `i32`, where `n` is in units of
 //! `2^e`, the power of two at or above the largest `|u_i - u_0|`; so `|n| <= q <= 1`.
 //!
 //! Error budget in the exact tier, in units of the attribute's range, at `w = 4096 h`
 //! (`q = 2^-12`):
 //! - a block of [`BLOCK`] = 64 pixels starts from the exact edge functions: weights within 2^-29 of
-//!   themselves and 2^-33, `n` and `q` within 2^-30;
+//!   themselves and 2^-30 (see [`Factor`]), `n` and `q` within 2^-28;
 //! - a pixel's step is rounded to 2^-31, so 63 steps add 2^-25 to `n` and to `q`;
-//! - both divided by `q`: 2 (2^-25 + 2^-30) / 2^-12 < 2^-11.9; the reciprocal adds 2^-29.
+//! - both divided by `q`: 2 (2^-25 + 2^-28) / 2^-12 < 2^-11.8; the reciprocal adds 2^-29.
 //!
 //! That is a quarter of the contract's 2^-10. Farther than 4096 hither distances it grows with `w`,
-//! up to the clamp: `n / q` in `[-1, 1]` keeps a value within `2^e` of `u_0` whatever happens.
+//! up to the clamp: a quotient is kept between the vertices', and so is the value.
+//!
+//! Along a straight line a value is stepped in raw steps times 2^32, so that a pixel costs one addition
+//! of 64 bits a varying, whose high word is the value.
 
 use crate::clip::{Hither, WRange};
-use crate::math::{Scale, low, reciprocal, saturate, shr_round};
+use crate::math::{Factor, Scale, low, reciprocal, saturate, shr_round};
 use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
@@ -111,8 +114,8 @@ pub(crate) struct Varyings<const N: usize> {
     pub(crate) mode: Mode,
     /// Whether affine was asked for and could not be had.
     pub(crate) fallback: bool,
-    /// Weight of vertex `i` is `scale[i] E_i`.
-    scale: [Scale; 3],
+    /// Weight of vertex `i` is `scale[i] E_i`, at most 1.
+    scale: [Factor; 3],
     /// `q` a pixel, Q30.
     q_step: i32,
     each: [Varying; N],
@@ -129,6 +132,9 @@ struct Varying {
     exponent: u32,
     /// The numerator's step a pixel, Q30, saturated.
     step: i32,
+    /// The least and the largest quotient at a vertex, Q30: 0, or one of the differences. Between them
+    /// every value is between the vertices', however few bits of `n` and `q` are left.
+    limits: [i32; 2],
 }
 
 impl Varying {
@@ -140,7 +146,11 @@ impl Varying {
         let largest = both[0].unsigned_abs().max(both[1].unsigned_abs());
         let exponent = 64 - largest.saturating_sub(1).leading_zeros();
         let differences = both.map(|d| low(shr_round(d << 30, exponent)));
-        let mut varying = Self { base: u0, differences, exponent, step: 0 };
+        let [d1, d2] = differences;
+        // Inwards by what sums along a row may be off: 511 steps of half a unit each.
+        let inset = if exponent > 20 { 1 << 9 } else { 0 };
+        let limits = [d1.min(d2).min(0) + inset, d1.max(d2).max(0) - inset];
+        let mut varying = Self { base: u0, differences, exponent, step: 0, limits };
         varying.step = varying.numerator(weight_steps);
         varying
     }
@@ -155,8 +165,35 @@ impl Varying {
     /// The value for a quotient `n / q`, Q30 in `[-1, 1]`.
     #[inline]
     fn value(&self, quotient: i32) -> I16F16 {
+        if let Some(shift) = 29u32.checked_sub(self.exponent) {
+            let offset = ((quotient >> shift) + 1) >> 1;
+            return I16F16::from_bits(self.base.saturating_add(offset));
+        }
+        // Differences of more than 2^29 raw steps, which are 8192.
         let offset = shr_round(i64::from(quotient) << self.exponent, 30);
         I16F16::from_bits(saturate(i64::from(self.base) + offset))
+    }
+
+    /// A quotient, or its step, in raw steps times 2^32: the high word of a sum of these is a value. Modulo
+    /// 2^64, as differences of the whole range take 65 bits; the sums are in range.
+    #[inline]
+    fn fixed(&self, quotient: i32) -> i64 {
+        i64::from(quotient).wrapping_shl(self.exponent + 2)
+    }
+
+    /// The value where the quotient is 0, in raw steps times 2^32, with half a step: the high word of it plus
+    /// steps is rounded to nearest. Two raw steps off the ends of the range, so that no sum leaves it.
+    #[inline]
+    fn start(&self) -> i64 {
+        let margin = if self.exponent == 0 { 0 } else { 2 };
+        let base = self.base.min(i32::MAX - margin).max(i32::MIN + margin);
+        (i64::from(base) << 32) + (1 << 31)
+    }
+
+    /// A quotient between the vertices'.
+    #[inline]
+    fn limited(&self, quotient: i32) -> i32 {
+        quotient.max(self.limits[0]).min(self.limits[1])
     }
 }
 
@@ -196,34 +233,39 @@ impl<const N: usize> Varyings<N> {
             };
             scale.times(setup.inverse)
         });
-        let steps = weights(&scale, setup.a.map(|a| a << setup.step));
+        let steps = weight_steps(&scale, setup.a.map(|a| a << setup.step));
         let q_step = saturate(shr_round(steps[0] + steps[1] + steps[2], 2));
         let [v0, v1, v2] = vertices.map(|v| v.varyings);
         let mut each = [Varying::default(); N];
         for (((varying, u0), u1), u2) in each.iter_mut().zip(v0).zip(v1).zip(v2) {
             *varying = Varying::new([u0, u1, u2].map(I16F16::to_bits), steps);
         }
+        let scale = scale.map(|scale| Factor::new(scale, 0));
         Self { mode, fallback: C::AFFINE && mode != Mode::Linear, scale, q_step, each }
     }
 
     /// Numerators and `q` where the edge functions have these values.
     #[inline]
     fn at(&self, edges: [i64; 3]) -> ([i32; N], i32) {
-        let weights = weights(&self.scale, edges);
-        let q = saturate(shr_round(weights[0] + weights[1] + weights[2], 2));
-        (self.each.map(|v| v.numerator(weights)), q)
+        let [w0, w1, w2] = weights(&self.scale, edges).map(i64::from);
+        let q = saturate((w0 + w1 + w2 + 2) >> 2);
+        (self.each.map(|v| v.numerator([w0, w1, w2])), q)
     }
 
     /// Quotients where the edge functions have these values.
     #[inline]
     fn quotients(&self, edges: [i64; 3]) -> [i32; N] {
         let (n, q) = self.at(edges);
-        if self.mode == Mode::Linear { n } else { n.map(|n| quotient(n, q)) }
+        let mut quotients = if self.mode == Mode::Linear { n } else { n.map(|n| quotient(n, q)) };
+        for (quotient, varying) in quotients.iter_mut().zip(&self.each) {
+            *quotient = varying.limited(*quotient);
+        }
+        quotients
     }
 
     /// The straight line through a block, whose edge functions at its first pixel are `edges`.
     #[inline]
-    pub(crate) fn ramp(&self, setup: &Setup, block: Span, edges: [i64; 3]) -> Ramp<'_, N> {
+    pub(crate) fn ramp(&self, setup: &Setup, block: Span, edges: [i64; 3]) -> Ramp<N> {
         let quotients = self.quotients(edges);
         let steps = if self.mode == Mode::Linear {
             self.each.map(|v| v.step)
@@ -235,7 +277,15 @@ impl<const N: usize> Varyings<N> {
             }
             steps
         };
-        Ramp { varyings: self, quotients, steps }
+        let mut ramp = Ramp { at: [0; N], step: [0; N] };
+        let each = self.each.iter().zip(quotients).zip(steps);
+        for ((at, ramp_step), ((varying, quotient), step)) in
+            ramp.at.iter_mut().zip(&mut ramp.step).zip(each)
+        {
+            *at = varying.start().wrapping_add(varying.fixed(quotient));
+            *ramp_step = varying.fixed(step);
+        }
+        ramp
     }
 
     /// The divided run of a block, whose edge functions at its first pixel are `edges`.
@@ -272,10 +322,18 @@ const fn inverses() -> [u32; 64] {
     table
 }
 
-/// Weights from edge functions, or their steps, Q32. On a row of two covered pixels or more both
-/// are at most 1 in magnitude; steeper steps are never taken, so they are clamped.
+/// Weights from edge functions at a covered pixel, Q32, below 1.
 #[inline]
-fn weights(scale: &[Scale; 3], edges: [i64; 3]) -> [i64; 3] {
+fn weights(scale: &[Factor; 3], edges: [i64; 3]) -> [u32; 3] {
+    let ([s0, s1, s2], [e0, e1, e2]) = (scale, edges);
+    let weight = |product: i64| u32::try_from(product >> 29).unwrap_or(u32::MAX);
+    [weight(s0.apply(e0)), weight(s1.apply(e1)), weight(s2.apply(e2))]
+}
+
+/// The weights' steps a pixel, Q32. On a row of two covered pixels or more they are at most 1 in
+/// magnitude; steeper steps are never taken, so they are clamped.
+#[inline]
+fn weight_steps(scale: &[Scale; 3], edges: [i64; 3]) -> [i64; 3] {
     const LIMIT: i64 = (1 << 32) - 1;
     let ([s0, s1, s2], [e0, e1, e2]) = (scale, edges);
     [s0.apply(e0, 32), s1.apply(e1, 32), s2.apply(e2, 32)].map(|w| w.clamp(-LIMIT, LIMIT))
@@ -299,12 +357,11 @@ pub(crate) trait Run<const N: usize> {
     fn step(&mut self);
 }
 
-/// Varyings along a straight line.
+/// Varyings along a straight line, in raw steps times 2^32.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ramp<'a, const N: usize> {
-    varyings: &'a Varyings<N>,
-    quotients: [i32; N],
-    steps: [i32; N],
+pub(crate) struct Ramp<const N: usize> {
+    at: [i64; N],
+    step: [i64; N],
 }
 
 /// Varyings divided at each pixel.
@@ -315,27 +372,17 @@ pub(crate) struct Divided<'a, const N: usize> {
     q: i32,
 }
 
-/// Values of the varyings for their quotients.
-#[inline]
-fn values<const N: usize>(each: &[Varying; N], quotients: [i32; N]) -> [I16F16; N] {
-    let mut values = [I16F16::ZERO; N];
-    for ((value, varying), quotient) in values.iter_mut().zip(each).zip(quotients) {
-        *value = varying.value(quotient);
-    }
-    values
-}
-
-impl<const N: usize> Run<N> for Ramp<'_, N> {
+impl<const N: usize> Run<N> for Ramp<N> {
     #[inline]
     fn varyings(&self) -> [I16F16; N] {
-        values(&self.varyings.each, self.quotients)
+        self.at.map(|at| I16F16::from_bits(low(at >> 32)))
     }
 
     #[inline]
     fn step(&mut self) {
-        for (quotient, step) in self.quotients.iter_mut().zip(self.steps) {
+        for (at, step) in self.at.iter_mut().zip(self.step) {
             // After the last pixel the sum may pass the range; it is not looked at.
-            *quotient = quotient.wrapping_add(step);
+            *at = at.wrapping_add(step);
         }
     }
 }
@@ -343,7 +390,11 @@ impl<const N: usize> Run<N> for Ramp<'_, N> {
 impl<const N: usize> Run<N> for Divided<'_, N> {
     #[inline]
     fn varyings(&self) -> [I16F16; N] {
-        values(&self.varyings.each, self.n.map(|n| quotient(n, self.q)))
+        let mut values = [I16F16::ZERO; N];
+        for ((value, varying), n) in values.iter_mut().zip(&self.varyings.each).zip(self.n) {
+            *value = varying.value(varying.limited(quotient(n, self.q)));
+        }
+        values
     }
 
     #[inline]

@@ -158,6 +158,40 @@ impl Scale {
     }
 }
 
+/// A positive real `r`, made ready for products with edge functions at covered pixels, which it
+/// bounds: `r e` is at most `2^B`, so `r` times all of `e` that matters is one product of 32 by 32 bits,
+/// at a fixed shift.
+///
+/// With `r = m 2^x` and `m` in `[2^31, 2^32)`, `e' = e 2^(x + 62 - B)` is at most `2^62 / m <= 2^31`: one bit
+/// to spare. `e'` is floored, so the product is off by less than `m 2^(B - 62) < 2^(B - 30)`, beside the
+/// part in 2^29 that `r` is off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Factor {
+    mantissa: u32,
+    /// How far `e` is shifted right; left where it is negative. -62 to 63.
+    shift: i32,
+}
+
+impl Factor {
+    /// A real whose products are at most `2^whole_bits`.
+    #[inline]
+    pub(crate) fn new(scale: Scale, whole_bits: i32) -> Self {
+        let shift = -(scale.exponent + 62 - whole_bits);
+        Self { mantissa: scale.mantissa, shift: shift.clamp(-62, 63) }
+    }
+
+    /// The product with `e`, in units of `2^(whole_bits - 61)`, floored; of a negative `e` 0, and beyond
+    /// twice the bound saturated.
+    #[inline]
+    #[expect(clippy::cast_possible_wrap, reason = "a bit less than 64 where it is cast")]
+    pub(crate) fn apply(self, e: i64) -> i64 {
+        let e = e.max(0).unsigned_abs();
+        let shift = self.shift.unsigned_abs();
+        let e = if self.shift >= 0 { e >> (shift & 63) } else { e << (shift & 63) };
+        ((u64::from(self.mantissa) * u64::from(u32::try_from(e).unwrap_or(u32::MAX))) >> 1) as i64
+    }
+}
+
 /// A real with a sign.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Signed {
@@ -268,6 +302,29 @@ mod tests {
                 } else {
                     assert!(got.unsigned_abs() >= 1 << 61);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn factors_agree_with_the_scales_they_are_made_of() {
+        for (i, m) in mantissas().enumerate().take(20_000) {
+            let scale = Scale { mantissa: m, exponent: -62 + (i as i32 % 60) };
+            for whole_bits in [0, 34] {
+                // All edge functions whose products are at most 2^whole_bits.
+                let largest = Scale::power_of_two(whole_bits).apply(1, 0);
+                let e = scale.reciprocal().apply(largest, 0) / (1 + i as i64 % 7);
+                if e == i64::MAX {
+                    continue;
+                }
+                let exact = i128::from(e) * i128::from(m);
+                let shift = -(scale.exponent + 61 - whole_bits);
+                let exact = if shift >= 0 { exact >> shift.min(127) } else { exact << -shift };
+                let got = i128::from(Factor::new(scale, whole_bits).apply(e));
+                // Units are 2^(whole_bits - 61): one part in 2^30 of the bound, floored.
+                let off = exact - got;
+                assert!((-1..=1 << 31).contains(&off), "{scale:?} x {e}: {got}, not {exact}");
+                assert_eq!(Factor::new(scale, whole_bits).apply(-e), 0);
             }
         }
     }

@@ -150,17 +150,25 @@ where
         let (left, top) = self.viewport.origin;
         let (first, length) = run(x0 + left, x1 + left);
         let (row, _) = run(y + top, y + top);
-        let (running, step) = depth.running();
-        let tests = self.depth.test(x0 + left, y + top, x1 - x0, running, step);
+        let (mut running, step) = depth.running();
         let mut x = x0;
-        let colors = tests.take(length).map(|passes| {
+        let mut pixel = |passes: bool| {
             let color =
                 passes.then(|| fragment.shade(Sample { x, y, varyings: varyings.varyings() }));
             varyings.step();
             x += 1;
             color
+        };
+        if D::BITS == 0 {
+            self.target.write(first, row, (0..length).map(|_| pixel(true)));
+            return;
+        }
+        let depths = self.depth.row(x0 + left, y + top, x1 - x0);
+        self.target.write_each(first, row, depths, |stored| {
+            let passes = D::passes(running, stored);
+            running = running.wrapping_add(step);
+            pixel(passes)
         });
-        self.target.write(first, row, colors);
     }
 }
 
