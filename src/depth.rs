@@ -3,29 +3,13 @@
 //! `z / w` is linear on the screen: `sum(k_i z_i E_i) / D`, set up from `[k_i z_i]` (Olano & Greer
 //! 1997, section 4). The running value is 32 bits, `(z / w)(2^N - 1) 2^(32 - N)`; its top `N` bits
 //! are stored, rounded.
-//!
-//! Error budget for `N = 16` in the exact tier, in stored units of 2^16 running ones (after
-//! Rossignac, section 9.3.1: the running value carries the bits that its additions lose):
-//! - each row starts from the exact edge functions. Where every vertex has `|z| <= 4 w`, the three
-//!   terms are at most 4 of the range, each within 2^-29 of itself and 2^-28 of the range: 2^-9 in
-//!   all. Where one has not (it is behind the eye, or far beyond far) terms may cancel: then the sum
-//!   is made in 128 bits, exactly but for 2^-60 of the largest term, and scaled once, within 2^-28:
-//!   2^-12;
-//! - the step is rounded to half a running unit: 511 steps add 2^-8;
-//! - rounding to 16 bits adds 1/2.
-//!
-//! So a stored depth is within 1 unit of the exact plane at every covered pixel. With `N = 32` the
-//! running value itself is stored, within 2^10 of its units: 2^-22 of the range.
-//!
-//! A row whose ends are both inside of the range is inside all along, since a row is linear and its
-//! steps are exact integers. Any other row is stored pixel by pixel, each saturated; no value
-//! wraps.
+
+mod plane;
+
+pub(crate) use plane::{DepthPlane, DepthRun};
 
 use crate::buffer::BufferSize;
-use crate::math::{Factor, Scale, Signed, align, combine, index, low, narrowed};
-use crate::setup::Setup;
-use crate::span::Span;
-use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
+use crate::math::index;
 use bytemuck::Pod;
 use core::marker::PhantomData;
 
@@ -209,127 +193,6 @@ impl<W: DepthWord, C: Compare> DepthTest for DepthBuffer<'_, W, C> {
     }
 }
 
-/// The depth of one triangle: `z / w` as a linear function of the edge functions.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct DepthPlane {
-    weights: Weights,
-    /// Running units a pixel along a row.
-    step: i64,
-    /// What rounds a running value to a stored one.
-    half: i64,
-}
-
-/// What turns edge functions into running values.
-#[derive(Clone, Copy, Debug)]
-enum Weights {
-    /// Running units a unit of each `E_i`, where none of the three terms is large: a factor, and
-    /// whether it is negative.
-    Each([(Factor, bool); 3]),
-    /// `k_i z_i` as integers on one scale, and the running units of their sum, where terms may
-    /// cancel: the sum is exact, and scaled once.
-    Sum([i128; 3], Scale),
-}
-
-/// Each of three terms that are not summed exactly is at most `2^TERM_BITS` running units: 4 of the
-/// range.
-const TERM_BITS: i32 = 34;
-
-/// No step that is taken is larger, in running units: the range.
-const STEEPEST: i64 = 1 << 32;
-
-/// A run of depths along a row.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct DepthRun {
-    /// At the first pixel, with the rounding in it; any size.
-    first: i64,
-    step: i64,
-    /// Whether all of the run is inside the range.
-    pub(crate) inside: bool,
-}
-
-impl DepthPlane {
-    /// A triangle's depth for words of `bits` bits, 1 to 32.
-    #[inline(never)]
-    pub(crate) fn new<T: Snap, const N: usize, const P: usize>(
-        setup: &Setup,
-        vertices: [&Vertex<T, N, P>; 3],
-        bits: u32,
-        outside: Outside,
-    ) -> Self {
-        let full = Scale::of(((1 << bits) - 1) << (32 - bits)).times(setup.inverse);
-        let values = vertices.map(|v| {
-            let ScaleOf(k) = v.position.scale();
-            let raw = Scale::power_of_two(i32::from(v.shift));
-            Signed::of(i64::from(v.z)).times(k).times(raw)
-        });
-        let steps = setup.a.map(|a| a << setup.step);
-        let (weights, step) = if outside.0 & Outside::STEEP == 0 {
-            let values = values.map(|value| value.times(full));
-            let ([u, v, w], [x, y, z]) = (values, steps);
-            let step = u.apply(x, 0).saturating_add(v.apply(y, 0)).saturating_add(w.apply(z, 0));
-            let factor = |v: Signed| (Factor::new(v.scale, TERM_BITS), v.negative);
-            (Weights::Each(values.map(factor)), step)
-        } else {
-            let (values, exponent) = align(values);
-            let scale = full.times(Scale::power_of_two(exponent));
-            (Weights::Sum(values, scale), sum(&values, scale, steps))
-        };
-        // A steeper step belongs to a single pixel, and is not taken.
-        let step = step.clamp(-STEEPEST, STEEPEST);
-        Self { weights, step, half: (1i64 << (32 - bits)) >> 1 }
-    }
-
-    /// The run of a span whose edge functions at its first pixel are `edges`.
-    #[inline]
-    pub(crate) fn run(&self, span: Span, edges: [i64; 3]) -> DepthRun {
-        let first = self.weights.apply(edges).saturating_add(self.half);
-        let pixels = i64::from(span.x1 - 1 - span.x0);
-        let last = first.saturating_add(self.step * pixels);
-        let fits = |v: i64| v >= 0 && v <= i64::from(u32::MAX);
-        DepthRun { first, step: self.step, inside: fits(first) && fits(last) }
-    }
-}
-
-impl DepthRun {
-    /// The run where there is no depth.
-    pub(crate) const NONE: Self = Self { first: 0, step: 0, inside: true };
-
-    /// The running value at the first pixel, saturated, and the step. Where a run is inside the
-    /// range, a step that does not fit 32 bits belongs to a single pixel, and is not taken.
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "clamped to 32 bits")]
-    #[expect(clippy::cast_sign_loss, reason = "clamped to positive; the step wraps by intent")]
-    pub(crate) fn running(&self) -> (u32, u32) {
-        (self.first.clamp(0, i64::from(u32::MAX)) as u32, low(self.step) as u32)
-    }
-}
-
-impl Weights {
-    /// The running value where the edge functions are `edges`, rounded, saturating.
-    #[inline]
-    fn apply(&self, edges: [i64; 3]) -> i64 {
-        match self {
-            Self::Each([u, v, w]) => {
-                let [x, y, z] = edges;
-                // Three terms of at most 2^59 (saturated, 2^61), in units of 2^-25.
-                let term = |&(factor, negative): &(Factor, bool), e: i64| {
-                    let product = factor.apply(e) >> 2;
-                    if negative { -product } else { product }
-                };
-                (term(u, x) + term(v, y) + term(w, z)) >> (59 - TERM_BITS)
-            }
-            Self::Sum(values, scale) => sum(values, *scale, edges),
-        }
-    }
-}
-
-/// The running value of an exact sum, rounded, saturating. Not inlined: few triangles need it.
-#[inline(never)]
-fn sum(values: &[i128; 3], scale: Scale, edges: [i64; 3]) -> i64 {
-    let (sum, exponent) = narrowed(combine(*values, edges));
-    scale.apply(sum, exponent)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -370,12 +233,5 @@ mod tests {
         assert_eq!(test(&mut buffer, (-1, 0), 2, 0, 0), []);
         buffer.clear();
         assert_eq!(words, [u16::MAX; 4]);
-    }
-
-    #[test]
-    fn running_values_saturate() {
-        let run = |first: i64| DepthRun { first, step: -3, inside: false }.running();
-        assert_eq!(run(-1), (0, 3u32.wrapping_neg()));
-        assert_eq!(run(i64::MAX).0, u32::MAX);
     }
 }

@@ -263,10 +263,10 @@ impl<const N: usize> Varyings<N> {
         quotients
     }
 
-    /// The straight line through a block, whose edge functions at its first pixel are `edges`.
+    /// The straight line through a block.
     #[inline]
-    pub(crate) fn ramp(&self, setup: &Setup, block: Span, edges: [i64; 3]) -> Ramp<N> {
-        let quotients = self.quotients(edges);
+    pub(crate) fn ramp(&self, setup: &Setup, block: Span) -> Ramp<N> {
+        let quotients = self.quotients(setup.edges_at(block.x0, block.y));
         let steps = if self.mode == Mode::Linear {
             self.each.map(|v| v.step)
         } else {
@@ -288,10 +288,10 @@ impl<const N: usize> Varyings<N> {
         ramp
     }
 
-    /// The divided run of a block, whose edge functions at its first pixel are `edges`.
+    /// The divided run of a block.
     #[inline]
-    pub(crate) fn divided(&self, edges: [i64; 3]) -> Divided<'_, N> {
-        let (n, q) = self.at(edges);
+    pub(crate) fn divided(&self, setup: &Setup, block: Span) -> Divided<'_, N> {
+        let (n, q) = self.at(setup.edges_at(block.x0, block.y));
         Divided { varyings: self, n, q }
     }
 }

@@ -21,11 +21,10 @@ pub(super) struct Shading<'a, F, const N: usize> {
 }
 
 impl<F, const N: usize> Shading<'_, F, N> {
-    /// The edge functions at the first pixel of a run, and the run's depths.
+    /// The depths of a run.
     #[inline]
-    fn start(&self, setup: &Setup, run: Span) -> ([i64; 3], DepthRun) {
-        let edges = setup.edges_at(run.x0, run.y);
-        (edges, self.depth.map_or(DepthRun::NONE, |plane| plane.run(run, edges)))
+    fn depths(&self, setup: &Setup, run: Span) -> DepthRun {
+        self.depth.map_or(DepthRun::NONE, |plane| plane.run(setup, run))
     }
 }
 
@@ -78,7 +77,7 @@ where
         self.target.fill(x, y, length, color);
     }
 
-    /// Draws a block: depth and varyings start from the exact edge functions at its first pixel.
+    /// Draws a block: depth and varyings start anew at its first pixel.
     #[inline]
     fn draw_block<F, const N: usize>(
         &mut self,
@@ -88,9 +87,9 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
-        let (edges, depth) = shading.start(setup, block);
+        let depth = shading.depths(setup, block);
         if depth.inside {
-            self.draw_from(setup, block, edges, depth, shading);
+            self.draw_from(setup, block, depth, shading);
         } else {
             self.draw_saturated(setup, block, shading);
         }
@@ -108,18 +107,16 @@ where
         F: Fragment<C::Color, N>,
     {
         for pixel in block.blocks(1) {
-            let (edges, depth) = shading.start(setup, pixel);
-            self.draw_from(setup, pixel, edges, depth, shading);
+            self.draw_from(setup, pixel, shading.depths(setup, pixel), shading);
         }
     }
 
-    /// Draws a block from its first pixel's edge functions and depth, by the way its varyings run.
+    /// Draws a block whose depths are inside of the range, by the way its varyings run.
     #[inline]
     fn draw_from<F, const N: usize>(
         &mut self,
         setup: &Setup,
         block: Span,
-        edges: [i64; 3],
         depth: DepthRun,
         shading: &Shading<'_, F, N>,
     ) where
@@ -128,9 +125,9 @@ where
         match shading.varyings {
             None => self.draw_run(block, NoVaryings, depth, shading.fragment),
             Some(v) if v.mode == Mode::Divided && I::EVERY == 1 => {
-                self.draw_run(block, v.divided(edges), depth, shading.fragment);
+                self.draw_run(block, v.divided(setup, block), depth, shading.fragment);
             }
-            Some(v) => self.draw_run(block, v.ramp(setup, block, edges), depth, shading.fragment),
+            Some(v) => self.draw_run(block, v.ramp(setup, block), depth, shading.fragment),
         }
     }
 
