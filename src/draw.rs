@@ -202,7 +202,7 @@ where
         if W::BEHIND && !behind.is_empty() {
             part(&setup.mirrored(), behind);
         }
-        if shading.varyings.is_some_and(|v| v.fallback) {
+        if shading.varyings.is_some_and(Varyings::fallback) {
             Outcome::DrawnByFallback
         } else {
             Outcome::Drawn

@@ -23,12 +23,15 @@
 //! Along a straight line a value is stepped in raw steps times 2^32, so that a pixel costs one addition
 //! of 64 bits a varying, whose high word is the value.
 
+mod plane;
+
 use crate::clip::{Hither, WRange};
 use crate::math::{Factor, Scale, low, reciprocal, saturate, shr_round};
 use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
+use plane::Planes;
 
 /// Pixels that are stepped from one exact start, where each is divided.
 pub(crate) const BLOCK: i32 = 64;
@@ -69,7 +72,9 @@ pub trait Correction: Copy + Default + core::fmt::Debug {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Perspective;
 
-/// Two divisions every `N` pixels, straight lines between: `N` is 2 to 64.
+/// Two divisions every `N` pixels, straight lines between: `N` is 2 to 64. Where one straight line over the
+/// whole triangle is at most 2^-9 off (an eighth of a texel on a side of 64, a sixteenth of a step of 5-bit
+/// colour), there is no division.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PerspectiveEvery<const N: u8>;
 
@@ -110,10 +115,19 @@ pub(crate) enum Mode {
 
 /// The varyings of one triangle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Varyings<const N: usize> {
-    pub(crate) mode: Mode,
+pub(crate) enum Varyings<const N: usize> {
+    /// Linear on the screen, stepped from a vertex.
+    Planes(Planes<N>),
+    /// Summed from the edge functions.
+    Weighted(Weighted<N>),
+}
+
+/// Varyings as sums of the vertices' values, weighted by the edge functions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weighted<const N: usize> {
+    mode: Mode,
     /// Whether affine was asked for and could not be had.
-    pub(crate) fallback: bool,
+    fallback: bool,
     /// Weight of vertex `i` is `scale[i] E_i`, at most 1.
     scale: [Factor; 3],
     /// `q` a pixel, Q30.
@@ -217,7 +231,49 @@ impl<const N: usize> Varyings<N> {
         outside: Outside,
     ) -> Self {
         let crosses = outside.0 & Outside::HITHER != 0;
-        let mode = if (C::AFFINE && !crosses) || same_w(vertices) {
+        let linear = (C::AFFINE && !crosses) || same_w(vertices);
+        if setup.narrow && (linear || (C::EVERY > 1 && !crosses)) {
+            if let Some(planes) = Planes::new(setup, vertices, linear) {
+                return Self::Planes(planes);
+            }
+        }
+        Self::Weighted(Weighted::new::<T, C, P>(setup, vertices, hither, linear))
+    }
+
+    /// How they run along a row.
+    #[inline]
+    pub(crate) const fn mode(&self) -> Mode {
+        match self {
+            Self::Planes(_) => Mode::Linear,
+            Self::Weighted(weighted) => weighted.mode,
+        }
+    }
+
+    /// Whether affine was asked for and could not be had.
+    #[inline]
+    pub(crate) const fn fallback(&self) -> bool {
+        matches!(self, Self::Weighted(weighted) if weighted.fallback)
+    }
+
+    /// The straight line through a block.
+    #[inline]
+    pub(crate) fn ramp(&self, setup: &Setup, block: Span) -> Ramp<N> {
+        match self {
+            Self::Planes(planes) => planes.ramp(block),
+            Self::Weighted(weighted) => weighted.ramp(setup, block),
+        }
+    }
+}
+
+impl<const N: usize> Weighted<N> {
+    #[inline]
+    fn new<T: Snap, C: Correction, const P: usize>(
+        setup: &Setup,
+        vertices: [&Vertex<T, N, P>; 3],
+        hither: Hither,
+        linear: bool,
+    ) -> Self {
+        let mode = if linear {
             Mode::Linear
         } else if C::EVERY > 1 {
             Mode::Pieces
@@ -233,7 +289,8 @@ impl<const N: usize> Varyings<N> {
             };
             scale.times(setup.inverse)
         });
-        let steps = weight_steps(&scale, setup.a.map(|a| a << setup.step));
+        let ([s0, s1, s2], [e0, e1, e2]) = (scale, setup.a.map(|a| a << setup.step));
+        let steps = [weight_step(s0, e0), weight_step(s1, e1), weight_step(s2, e2)];
         let q_step = saturate(shr_round(steps[0] + steps[1] + steps[2], 2));
         let [v0, v1, v2] = vertices.map(|v| v.varyings);
         let mut each = [Varying::default(); N];
@@ -263,9 +320,9 @@ impl<const N: usize> Varyings<N> {
         quotients
     }
 
-    /// The straight line through a block.
-    #[inline]
-    pub(crate) fn ramp(&self, setup: &Setup, block: Span) -> Ramp<N> {
+    /// The straight line through a block. Not inlined: the pixel loop after it wants the registers.
+    #[inline(never)]
+    fn ramp(&self, setup: &Setup, block: Span) -> Ramp<N> {
         let quotients = self.quotients(setup.edges_at(block.x0, block.y));
         let steps = if self.mode == Mode::Linear {
             self.each.map(|v| v.step)
@@ -286,6 +343,12 @@ impl<const N: usize> Varyings<N> {
             *ramp_step = varying.fixed(step);
         }
         ramp
+    }
+
+    /// Whether each pixel is divided.
+    #[inline]
+    pub(crate) const fn is_divided(&self) -> bool {
+        matches!(self.mode, Mode::Divided)
     }
 
     /// The divided run of a block.
@@ -330,13 +393,12 @@ fn weights(scale: &[Factor; 3], edges: [i64; 3]) -> [u32; 3] {
     [weight(s0.apply(e0)), weight(s1.apply(e1)), weight(s2.apply(e2))]
 }
 
-/// The weights' steps a pixel, Q32. On a row of two covered pixels or more they are at most 1 in
-/// magnitude; steeper steps are never taken, so they are clamped.
+/// A weight's step a pixel, Q32. On a row of two covered pixels or more it is at most 1 in magnitude;
+/// a steeper step is never taken, so it is clamped.
 #[inline]
-fn weight_steps(scale: &[Scale; 3], edges: [i64; 3]) -> [i64; 3] {
+fn weight_step(scale: Scale, edge: i64) -> i64 {
     const LIMIT: i64 = (1 << 32) - 1;
-    let ([s0, s1, s2], [e0, e1, e2]) = (scale, edges);
-    [s0.apply(e0, 32), s1.apply(e1, 32), s2.apply(e2, 32)].map(|w| w.clamp(-LIMIT, LIMIT))
+    scale.apply(edge, 32).clamp(-LIMIT, LIMIT)
 }
 
 /// Whether the vertices have the same `w`, to the bit, so that `q` is constant.
@@ -367,7 +429,7 @@ pub(crate) struct Ramp<const N: usize> {
 /// Varyings divided at each pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Divided<'a, const N: usize> {
-    varyings: &'a Varyings<N>,
+    varyings: &'a Weighted<N>,
     n: [i32; N],
     q: i32,
 }

@@ -47,8 +47,8 @@ where
         F: Fragment<C::Color, N>,
     {
         let length = match shading.varyings {
-            Some(varyings) if varyings.mode == Mode::Pieces => I::EVERY,
-            Some(varyings) if varyings.mode == Mode::Divided => BLOCK,
+            Some(varyings) if varyings.mode() == Mode::Pieces => I::EVERY,
+            Some(varyings) if varyings.mode() == Mode::Divided => BLOCK,
             _ => i32::MAX,
         };
         for span in Spans::new(setup, bounds, clip, T::NARROW) {
@@ -124,7 +124,7 @@ where
     {
         match shading.varyings {
             None => self.draw_run(block, NoVaryings, depth, shading.fragment),
-            Some(v) if v.mode == Mode::Divided && I::EVERY == 1 => {
+            Some(Varyings::Weighted(v)) if v.is_divided() && I::EVERY == 1 => {
                 self.draw_run(block, v.divided(setup, block), depth, shading.fragment);
             }
             Some(v) => self.draw_run(block, v.ramp(setup, block), depth, shading.fragment),
