@@ -211,14 +211,39 @@ impl Varying {
     }
 }
 
-/// `n / q`, Q30, clamped to `[-1, 1]`; `q <= 0` counts as 2^-30.
-#[inline]
-fn quotient(n: i32, q: i32) -> i32 {
-    let q = q.max(1).unsigned_abs();
-    let zeros = q.leading_zeros();
-    // 2^63 / (q 2^zeros): the product is n / q in Q(63 - zeros).
-    let product = i64::from(n) * i64::from(reciprocal(q << zeros));
-    low((product >> (33 - zeros)).clamp(-i64::from(ONE), i64::from(ONE)))
+/// `1 / q`, for quotients of several numerators.
+#[derive(Clone, Copy)]
+struct Inverse {
+    q: i32,
+    /// `2^63 / (q 2^zeros)`.
+    reciprocal: u32,
+    zeros: u32,
+}
+
+impl Inverse {
+    /// Of `q`, Q30; `q <= 0` counts as 2^-30.
+    #[inline]
+    fn new(q: i32) -> Self {
+        let q = q.max(1);
+        let zeros = q.leading_zeros();
+        Self { q, reciprocal: reciprocal(q.unsigned_abs() << zeros), zeros }
+    }
+
+    /// `n / q`, Q30, clamped to `[-1, 1]`.
+    ///
+    /// Where `|n| < q`, `n 2^(zeros - 1)` is below 2^31, and its product with the reciprocal is `n / q` in Q62:
+    /// the quotient is its high word.
+    #[inline]
+    fn quotient(&self, n: i32) -> i32 {
+        if n >= self.q {
+            return ONE;
+        }
+        if n <= -self.q {
+            return -ONE;
+        }
+        let normal = n << (self.zeros.wrapping_sub(1) & 31);
+        low((i64::from(normal) * i64::from(self.reciprocal)) >> 32)
+    }
 }
 
 impl<const N: usize> Varyings<N> {
@@ -313,7 +338,11 @@ impl<const N: usize> Weighted<N> {
     #[inline]
     fn quotients(&self, edges: [i64; 3]) -> [i32; N] {
         let (n, q) = self.at(edges);
-        let mut quotients = if self.mode == Mode::Linear { n } else { n.map(|n| quotient(n, q)) };
+        let mut quotients = n;
+        if self.mode != Mode::Linear {
+            let inverse = Inverse::new(q);
+            quotients = n.map(|n| inverse.quotient(n));
+        }
         for (quotient, varying) in quotients.iter_mut().zip(&self.each) {
             *quotient = varying.limited(*quotient);
         }
@@ -452,9 +481,10 @@ impl<const N: usize> Run<N> for Ramp<N> {
 impl<const N: usize> Run<N> for Divided<'_, N> {
     #[inline]
     fn varyings(&self) -> [I16F16; N] {
+        let inverse = Inverse::new(self.q);
         let mut values = [I16F16::ZERO; N];
         for ((value, varying), n) in values.iter_mut().zip(&self.varyings.each).zip(self.n) {
-            *value = varying.value(varying.limited(quotient(n, self.q)));
+            *value = varying.value(varying.limited(inverse.quotient(n)));
         }
         values
     }
@@ -471,6 +501,10 @@ impl<const N: usize> Run<N> for Divided<'_, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn quotient(n: i32, q: i32) -> i32 {
+        Inverse::new(q).quotient(n)
+    }
 
     #[test]
     fn quotients_are_close_and_clamped() {
