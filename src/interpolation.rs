@@ -280,15 +280,25 @@ impl<const N: usize> Varyings<N> {
         matches!(self, Self::Weighted(weighted) if weighted.fallback)
     }
 
-    /// The straight line through a block.
+    /// The straight line through a block. `joint` is where the block before ended, if this one goes on
+    /// from there; where there is `more` of the span it becomes where this one ends.
     #[inline]
-    pub(crate) fn ramp(&self, setup: &Setup, block: Span) -> Ramp<N> {
+    pub(crate) fn ramp(
+        &self,
+        setup: &Setup,
+        block: Span,
+        more: bool,
+        joint: &mut Joint<N>,
+    ) -> Ramp<N> {
         match self {
             Self::Planes(planes) => planes.ramp(block),
-            Self::Weighted(weighted) => weighted.ramp(setup, block),
+            Self::Weighted(weighted) => weighted.ramp(setup, block, more, joint),
         }
     }
 }
+
+/// Where one straight piece ends and the next begins: its quotients, so that they are divided once.
+pub(crate) type Joint<const N: usize> = Option<[i32; N]>;
 
 impl<const N: usize> Weighted<N> {
     #[inline]
@@ -349,20 +359,22 @@ impl<const N: usize> Weighted<N> {
         quotients
     }
 
-    /// The straight line through a block. Not inlined: the pixel loop after it wants the registers.
+    /// The straight line through a block: see [`Varyings::ramp`]. Not inlined: the pixel loop after it wants
+    /// the registers.
     #[inline(never)]
-    fn ramp(&self, setup: &Setup, block: Span) -> Ramp<N> {
-        let quotients = self.quotients(setup.edges_at(block.x0, block.y));
-        let steps = if self.mode == Mode::Linear {
-            self.each.map(|v| v.step)
-        } else {
-            let last = self.quotients(setup.edges_at(block.x1 - 1, block.y));
-            let mut steps = [0; N];
+    fn ramp(&self, setup: &Setup, block: Span, more: bool, joint: &mut Joint<N>) -> Ramp<N> {
+        let at = |x: i32| self.quotients(setup.edges_at(x, block.y));
+        let quotients = joint.take().unwrap_or_else(|| at(block.x0));
+        let mut steps = self.each.map(|v| v.step);
+        if self.mode != Mode::Linear {
+            // To the first pixel of the next piece, or the last of this one.
+            let end = if more { block.x1 } else { block.x1 - 1 };
+            let last = if end > block.x0 { at(end) } else { quotients };
             for ((step, last), first) in steps.iter_mut().zip(last).zip(quotients) {
-                *step = per_pixel(last, first, block.x1 - 1 - block.x0);
+                *step = per_pixel(last, first, end - block.x0);
             }
-            steps
-        };
+            *joint = more.then_some(last);
+        }
         let mut ramp = Ramp { at: [0; N], step: [0; N] };
         let each = self.each.iter().zip(quotients).zip(steps);
         for ((at, ramp_step), ((varying, quotient), step)) in
@@ -391,8 +403,8 @@ impl<const N: usize> Weighted<N> {
 /// `(last - first) / steps`, rounded towards minus infinity; 0 for a single pixel.
 #[inline]
 fn per_pixel(last: i32, first: i32, steps: i32) -> i32 {
-    /// `ceil(2^32 / n)` for n of 0 to 63; 0 and 1 are not looked up.
-    const INVERSE: [u32; 64] = inverses();
+    /// `ceil(2^32 / n)` for n of 0 to 64; 0 and 1 are not looked up.
+    const INVERSE: [u32; 65] = inverses();
     let difference = i64::from(last) - i64::from(first);
     if steps <= 1 {
         return if steps == 1 { saturate(difference) } else { 0 };
@@ -404,10 +416,10 @@ fn per_pixel(last: i32, first: i32, steps: i32) -> i32 {
 /// The table of [`per_pixel`].
 #[expect(clippy::indexing_slicing, reason = "n is below the length; evaluated at compile time")]
 #[expect(clippy::cast_possible_truncation, reason = "at most 2^31 from n = 2 on")]
-const fn inverses() -> [u32; 64] {
-    let mut table = [0; 64];
+const fn inverses() -> [u32; 65] {
+    let mut table = [0; 65];
     let mut n = 2;
-    while n < 64 {
+    while n <= 64 {
         table[n] = (1u64 << 32).div_ceil(n as u64) as u32;
         n += 1;
     }
@@ -549,7 +561,7 @@ mod tests {
 
     #[test]
     fn pieces_end_where_they_should() {
-        for steps in 1..64 {
+        for steps in 1..=64 {
             for difference in [-ONE, -1, 0, 1, 77_777, ONE] {
                 let step = per_pixel(difference, 0, steps);
                 assert!((i64::from(step) * i64::from(steps) - i64::from(difference)).abs() <= 64);

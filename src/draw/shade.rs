@@ -4,7 +4,7 @@ use super::Frame;
 use crate::depth::{DepthPlane, DepthRun, DepthTest};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::{Target, run};
-use crate::interpolation::{BLOCK, Correction, Mode, Run, Varyings};
+use crate::interpolation::{BLOCK, Correction, Joint, Mode, Run, Varyings};
 use crate::setup::{Setup, Tier};
 use crate::span::Span;
 use crate::traversal::{ClipWalk, Spans};
@@ -55,8 +55,10 @@ where
             if F::UNIFORM && shading.depth.is_none() && N == 0 {
                 self.fill(span, shading);
             } else {
+                let mut joint = None;
                 for block in span.blocks(length) {
-                    self.draw_block(setup, block, shading);
+                    let more = block.x1 < span.x1;
+                    self.draw_block(setup, block, more, &mut joint, shading);
                 }
             }
         }
@@ -77,20 +79,23 @@ where
         self.target.fill(x, y, length, color);
     }
 
-    /// Draws a block: depth and varyings start anew at its first pixel.
+    /// Draws a block, with `more` of its span to follow.
     #[inline]
     fn draw_block<F, const N: usize>(
         &mut self,
         setup: &Setup,
         block: Span,
+        more: bool,
+        joint: &mut Joint<N>,
         shading: &Shading<'_, F, N>,
     ) where
         F: Fragment<C::Color, N>,
     {
         let depth = shading.depths(setup, block);
         if depth.inside {
-            self.draw_from(setup, block, depth, shading);
+            self.draw_from(setup, block, depth, (more, joint), shading);
         } else {
+            *joint = None;
             self.draw_saturated(setup, block, shading);
         }
     }
@@ -107,7 +112,8 @@ where
         F: Fragment<C::Color, N>,
     {
         for pixel in block.blocks(1) {
-            self.draw_from(setup, pixel, shading.depths(setup, pixel), shading);
+            let depth = shading.depths(setup, pixel);
+            self.draw_from(setup, pixel, depth, (false, &mut None), shading);
         }
     }
 
@@ -118,6 +124,7 @@ where
         setup: &Setup,
         block: Span,
         depth: DepthRun,
+        (more, joint): (bool, &mut Joint<N>),
         shading: &Shading<'_, F, N>,
     ) where
         F: Fragment<C::Color, N>,
@@ -127,7 +134,10 @@ where
             Some(Varyings::Weighted(v)) if v.is_divided() && I::EVERY == 1 => {
                 self.draw_run(block, v.divided(setup, block), depth, shading.fragment);
             }
-            Some(v) => self.draw_run(block, v.ramp(setup, block), depth, shading.fragment),
+            Some(v) => {
+                let ramp = v.ramp(setup, block, more, joint);
+                self.draw_run(block, ramp, depth, shading.fragment);
+            }
         }
     }
 
