@@ -31,7 +31,7 @@ use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
-use plane::Planes;
+use plane::{Numerators, Planes};
 
 /// Pixels that are stepped from one exact start, where each is divided.
 pub(crate) const BLOCK: i32 = 64;
@@ -128,11 +128,19 @@ pub(crate) struct Weighted<const N: usize> {
     mode: Mode,
     /// Whether affine was asked for and could not be had.
     fallback: bool,
-    /// Weight of vertex `i` is `scale[i] E_i`, at most 1.
-    scale: [Factor; 3],
+    source: Source<N>,
     /// `q` a pixel, Q30.
     q_step: i32,
     each: [Varying; N],
+}
+
+/// What numerators and `q` come from.
+#[derive(Clone, Copy, Debug)]
+enum Source<const N: usize> {
+    /// Weight of vertex `i` is `scale[i] E_i`, at most 1.
+    Edges([Factor; 3]),
+    /// They are linear on the screen, stepped from a vertex.
+    Planes(Numerators<N>),
 }
 
 /// One varying: its value at vertex 0, and how the numerator is made from the other two's weights.
@@ -332,22 +340,33 @@ impl<const N: usize> Weighted<N> {
         for (((varying, u0), u1), u2) in each.iter_mut().zip(v0).zip(v1).zip(v2) {
             *varying = Varying::new([u0, u1, u2].map(I16F16::to_bits), steps);
         }
-        let scale = scale.map(|scale| Factor::new(scale, 0));
-        Self { mode, fallback: C::AFFINE && mode != Mode::Linear, scale, q_step, each }
+        let planes = if mode == Mode::Pieces {
+            Numerators::new(setup, vertices[0], hither, scale, &each)
+        } else {
+            None
+        };
+        let factors = scale.map(|scale| Factor::new(scale, 0));
+        let source = planes.map_or(Source::Edges(factors), Source::Planes);
+        Self { mode, fallback: C::AFFINE && mode != Mode::Linear, source, q_step, each }
     }
 
-    /// Numerators and `q` where the edge functions have these values.
+    /// Numerators and `q` at a covered pixel.
     #[inline]
-    fn at(&self, edges: [i64; 3]) -> ([i32; N], i32) {
-        let [w0, w1, w2] = weights(&self.scale, edges).map(i64::from);
-        let q = saturate((w0 + w1 + w2 + 2) >> 2);
-        (self.each.map(|v| v.numerator([w0, w1, w2])), q)
+    fn at(&self, setup: &Setup, x: i32, y: i32) -> ([i32; N], i32) {
+        match &self.source {
+            Source::Edges(scale) => {
+                let [w0, w1, w2] = weights(scale, setup.edges_at(x, y)).map(i64::from);
+                let q = saturate((w0 + w1 + w2 + 2) >> 2);
+                (self.each.map(|v| v.numerator([w0, w1, w2])), q)
+            }
+            Source::Planes(planes) => planes.at(x, y),
+        }
     }
 
-    /// Quotients where the edge functions have these values.
+    /// Quotients at a covered pixel.
     #[inline]
-    fn quotients(&self, edges: [i64; 3]) -> [i32; N] {
-        let (n, q) = self.at(edges);
+    fn quotients(&self, setup: &Setup, x: i32, y: i32) -> [i32; N] {
+        let (n, q) = self.at(setup, x, y);
         let mut quotients = n;
         if self.mode != Mode::Linear {
             let inverse = Inverse::new(q);
@@ -363,7 +382,7 @@ impl<const N: usize> Weighted<N> {
     /// the registers.
     #[inline(never)]
     fn ramp(&self, setup: &Setup, block: Span, more: bool, joint: &mut Joint<N>) -> Ramp<N> {
-        let at = |x: i32| self.quotients(setup.edges_at(x, block.y));
+        let at = |x: i32| self.quotients(setup, x, block.y);
         let quotients = joint.take().unwrap_or_else(|| at(block.x0));
         let mut steps = self.each.map(|v| v.step);
         if self.mode != Mode::Linear {
@@ -395,7 +414,7 @@ impl<const N: usize> Weighted<N> {
     /// The divided run of a block.
     #[inline]
     pub(crate) fn divided(&self, setup: &Setup, block: Span) -> Divided<'_, N> {
-        let (n, q) = self.at(setup.edges_at(block.x0, block.y));
+        let (n, q) = self.at(setup, block.x0, block.y);
         Divided { varyings: self, n, q }
     }
 }

@@ -16,7 +16,8 @@
 //!   they are values, which fit.
 
 use super::{Ramp, Varying, weight_step};
-use crate::math::Scale;
+use crate::clip::Hither;
+use crate::math::{Scale, bits, low};
 use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Position, ScaleOf, Snap, Snapped, Vertex};
@@ -28,7 +29,8 @@ pub(crate) struct Planes<const N: usize> {
     each: [Plane; N],
 }
 
-/// One of them, in raw steps times 2^32, with half a step in it.
+/// A linear function on the screen: of a varying in raw steps times 2^32, with half a step in it; of a
+/// numerator or of `q` in Q[`NUMERATOR_BITS`].
 #[derive(Clone, Copy, Debug, Default)]
 struct Plane {
     /// At the centre of pixel (0, 0).
@@ -49,7 +51,7 @@ const WIDEST: u32 = 20;
 const STRAIGHT_BITS: u32 = 7;
 
 /// Where a vertex is from the centre of pixel (0, 0), along one axis.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Back {
     /// Whole pixels, floored.
     pixels: i64,
@@ -75,6 +77,96 @@ impl Back {
     }
 }
 
+impl Plane {
+    /// The function that has a value at a vertex, and these gradients.
+    #[inline]
+    fn through(value: i64, [x, y]: [i64; 2], [back_x, back_y]: [Back; 2]) -> Self {
+        let at_origin = value.wrapping_add(back_x.times(x)).wrapping_add(back_y.times(y));
+        Self { at_origin, x, y }
+    }
+
+    /// Its value at the centre of a pixel.
+    #[inline]
+    fn at(&self, x: i32, y: i32) -> i64 {
+        let (x, y) = (self.x.wrapping_mul(i64::from(x)), self.y.wrapping_mul(i64::from(y)));
+        self.at_origin.wrapping_add(x).wrapping_add(y)
+    }
+}
+
+/// Where a projected vertex is, for both axes.
+#[inline]
+fn back_from<T: Snap, const N: usize, const P: usize>(
+    vertex: &Vertex<T, N, P>,
+) -> Option<[Back; 2]> {
+    match vertex.snapped() {
+        Snapped::Projected { point: [x, y], subpixel_bits } => {
+            Some([Back::new(x, subpixel_bits), Back::new(y, subpixel_bits)])
+        }
+        Snapped::Homogeneous { .. } => None,
+    }
+}
+
+/// Numerators and `q` of a triangle in perspective, for pieces: `1 / w` and `u / w` are linear on the screen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Numerators<const N: usize> {
+    n: [Plane; N],
+    q: Plane,
+}
+
+/// Fraction bits of numerators and `q`: 16 more than are divided, for the steps that add up. A value is off
+/// by up to 2 1536 2^-33 < 2^-21, the rounding of the weights' gradients.
+const NUMERATOR_BITS: u32 = 46;
+
+impl<const N: usize> Numerators<N> {
+    /// The planes through three projected vertices, whose weights are `scale[i] E_i`, where they are exact
+    /// enough.
+    #[inline]
+    pub(super) fn new<T: Snap, const P: usize>(
+        setup: &Setup,
+        vertex: &Vertex<T, N, P>,
+        hither: Hither,
+        scale: [Scale; 3],
+        each: &[Varying; N],
+    ) -> Option<Self> {
+        if !setup.narrow {
+            return None;
+        }
+        let back = back_from(vertex)?;
+        let gradients = |edges: [i64; 3]| {
+            let ([s0, s1, s2], [e0, e1, e2]) = (scale, edges.map(|e| e << setup.step));
+            let all = [weight_step(s0, e0), weight_step(s1, e1), weight_step(s2, e2)];
+            all.iter().all(|g| g.abs() <= GENTLE).then_some(all)
+        };
+        let (across, down) = (gradients(setup.a)?, gradients(setup.b)?);
+        // At the vertex every numerator is 0, and q is h k / (k w).
+        let ScaleOf(k) = vertex.position.scale();
+        let halves = vertex.position.scaled_w().trailing_zeros();
+        let q = k.apply(i64::from(hither.raw()), bits(NUMERATOR_BITS) - bits(halves));
+        let sum = |g: [i64; 3]| (g[0] + g[1] + g[2]) << (NUMERATOR_BITS - 32);
+        let mut planes =
+            Self { n: [Plane::default(); N], q: Plane::through(q, [sum(across), sum(down)], back) };
+        for (plane, varying) in planes.n.iter_mut().zip(each) {
+            let gradient = |[_, g1, g2]: [i64; 3]| {
+                let [d1, d2] = varying.differences.map(i64::from);
+                (d1 * g1 + d2 * g2) >> (62 - NUMERATOR_BITS)
+            };
+            *plane = Plane::through(0, [gradient(across), gradient(down)], back);
+        }
+        Some(planes)
+    }
+
+    /// Numerators and `q` at a covered pixel, Q30.
+    #[inline]
+    pub(super) fn at(&self, x: i32, y: i32) -> ([i32; N], i32) {
+        let at = |plane: &Plane| low(plane.at(x, y) >> (NUMERATOR_BITS - 30));
+        let mut n = [0; N];
+        for (n, plane) in n.iter_mut().zip(&self.n) {
+            *n = at(plane);
+        }
+        (n, at(&self.q))
+    }
+}
+
 impl<const N: usize> Planes<N> {
     /// The planes through three projected vertices, where they are exact enough; of varyings that are not
     /// `linear` where straight lines are.
@@ -84,9 +176,7 @@ impl<const N: usize> Planes<N> {
         vertices: [&Vertex<T, N, P>; 3],
         linear: bool,
     ) -> Option<Self> {
-        let Snapped::Projected { point: [px, py], subpixel_bits } = vertices[0].snapped() else {
-            return None;
-        };
+        let back = back_from(vertices[0])?;
         // All three have the same k w.
         let w = Scale::of(u64::from(vertices[0].position.scaled_w().unsigned_abs()));
         let scale = w.times(setup.inverse);
@@ -95,16 +185,14 @@ impl<const N: usize> Planes<N> {
             each.iter().all(|g| g.abs() <= GENTLE).then_some([0, each[0], each[1]])
         };
         let (across, down) = (gradients(setup.a)?, gradients(setup.b)?);
-        let back = [Back::new(px, subpixel_bits), Back::new(py, subpixel_bits)];
         let mut planes = Self { each: [Plane::default(); N] };
         let mut widest = 0;
         let [v0, v1, v2] = vertices.map(|v| v.varyings.map(I16F16::to_bits));
         for (((plane, u0), u1), u2) in planes.each.iter_mut().zip(v0).zip(v1).zip(v2) {
             let varying = Varying::new([u0, u1, u2], across);
             widest = widest.max(varying.exponent);
-            let (x, y) = (varying.fixed(varying.step), varying.fixed(varying.numerator(down)));
-            let at_origin = varying.start().wrapping_add(back[0].times(x));
-            *plane = Plane { at_origin: at_origin.wrapping_add(back[1].times(y)), x, y };
+            let gradient = [varying.fixed(varying.step), varying.fixed(varying.numerator(down))];
+            *plane = Plane::through(varying.start(), gradient, back);
         }
         let in_range = v0.iter().all(|u| u.unsigned_abs() < 1 << 30) && widest <= WIDEST;
         (in_range && (linear || is_straight(vertices, widest))).then_some(planes)
@@ -114,10 +202,8 @@ impl<const N: usize> Planes<N> {
     #[inline]
     pub(super) fn ramp(&self, block: Span) -> Ramp<N> {
         let mut ramp = Ramp { at: [0; N], step: [0; N] };
-        let (x, y) = (i64::from(block.x0), i64::from(block.y));
         for ((at, step), plane) in ramp.at.iter_mut().zip(&mut ramp.step).zip(&self.each) {
-            let along = plane.x.wrapping_mul(x).wrapping_add(plane.y.wrapping_mul(y));
-            (*at, *step) = (plane.at_origin.wrapping_add(along), plane.x);
+            (*at, *step) = (plane.at(block.x0, block.y), plane.x);
         }
         ramp
     }
