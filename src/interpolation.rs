@@ -160,8 +160,8 @@ struct Varying {
 }
 
 impl Varying {
-    /// From the vertices' values and the weights' steps along a row.
-    #[inline]
+    /// From the vertices' values and the weights' steps along a row. Not inlined: its registers are spilt once.
+    #[inline(never)]
     fn new([u0, u1, u2]: [i32; 3], weight_steps: [i64; 3]) -> Self {
         let difference = |u: i32| i64::from(u) - i64::from(u0);
         let both = [difference(u1), difference(u2)];
