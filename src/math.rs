@@ -50,6 +50,20 @@ pub(crate) const fn bits(n: u32) -> i32 {
     n as i32
 }
 
+/// The same 32 bits as a signed number.
+#[inline]
+#[expect(clippy::cast_possible_wrap, reason = "the bits as they are")]
+pub(crate) const fn signed(v: u32) -> i32 {
+    v as i32
+}
+
+/// The same 32 bits as an unsigned number: a comparison with a bound is then also one with 0.
+#[inline]
+#[expect(clippy::cast_sign_loss, reason = "the bits as they are")]
+pub(crate) const fn unsigned(v: i32) -> u32 {
+    v as u32
+}
+
 /// First approximations of `2^40 / m` for `m` in `[2^31, 2^32)`, by the seven bits below the
 /// leading one: `round(2^17 / (257 + 2 i)) - 256`, which is off by at most 1 part in 2^8.
 const SEED: [u8; 128] = seed();
@@ -67,23 +81,86 @@ const fn seed() -> [u8; 128] {
     table
 }
 
-/// `2^63 / m` for `m` in `[2^31, 2^32)`: a table of 128 bytes, then two Newton steps.
-///
-/// The result is in `[2^31 - 8, 2^32)` and never off by more than one part in 2^29
-/// (`reciprocal_is_close` in this file). No division: 32-bit cores without one run it as fast.
+/// ARMv6-M: 32-bit products only, no count of leading zeros, no division; each is a call of 35 to 40
+/// instructions there.
+pub(crate) const SMALL_CORE: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+
+/// `v` shifted left until its top bit is set, and by how much: 0 and at least 31 for 0.
 #[inline]
-pub(crate) fn reciprocal(m: u32) -> u32 {
+pub(crate) fn normalized(v: u32) -> (u32, u32) {
+    if SMALL_CORE {
+        normalized_by_halves(v)
+    } else {
+        let zeros = v.leading_zeros() & 31;
+        (v << zeros, zeros)
+    }
+}
+
+/// [`normalized`] by comparisons: 17 instructions on ARMv6-M for 40.
+#[inline]
+fn normalized_by_halves(mut v: u32) -> (u32, u32) {
+    /// Leading zeros of four bits, two bits each, from the least.
+    const ZEROS: u32 = 0b00_00_00_00_00_00_00_00_01_01_01_01_10_10_11_11;
+    let mut zeros = 0;
+    for (bits, step) in [(16, 16), (24, 8), (28, 4)] {
+        if v >> bits == 0 {
+            v <<= step;
+            zeros += step;
+        }
+    }
+    let last = (ZEROS >> (2 * (v >> 28))) & 3;
+    (v << last, zeros + last)
+}
+
+/// `2^48 / m` for `m` in `[2^31, 2^32)`, to one part in 2^15: a table of 128 bytes, then a Newton
+/// step. The result is in `[2^16, 2^17)`.
+#[inline]
+#[expect(clippy::cast_sign_loss, reason = "2^16 to 2^17")]
+pub(crate) fn reciprocal_estimate(m: u32) -> u32 {
     // Q9 of 2^31 / m, in (1/2, 1]: 9 bits.
     let seed = SEED.get(((m >> 24) & 0x7f) as usize).copied().unwrap_or(0);
     let x = 256 + i32::from(seed);
     // 1/2 - x f, with f = m / 2^32 cut to 16 bits: Q25, at most 2^17 + 2^9.
     let error = (1 << 24) - x * bits(m >> 16);
-    // Q17: x + 2 x error. Relative error below 2^-14.
-    let x = (x << 8) + ((x * error) >> 16);
-    // Q49 with all of m: at most 2^35.
+    // Q17: x + 2 x error.
+    ((x << 8) + ((x * error) >> 16)) as u32
+}
+
+/// `2^63 / m` for `m` in `[2^31, 2^32)`: [`reciprocal_estimate`], then another Newton step.
+///
+/// The result is in `[2^31, 2^32)` and never off by more than one part in 2^29
+/// (`reciprocal_is_close` in this file). No division: 32-bit cores without one run it as fast.
+#[inline]
+pub(crate) fn reciprocal(m: u32) -> u32 {
+    let x = reciprocal_estimate(m);
+    if SMALL_CORE { refined_split(x, m) } else { refined(x, m) }
+}
+
+/// The second Newton step: `x^2 m` against `x`, both in Q17.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "every m was tried: below 2^32")]
+#[expect(clippy::cast_sign_loss, reason = "every m was tried: positive")]
+fn refined(x: u32, m: u32) -> u32 {
+    // Q49 with all of m: at most 2^33.
     let error = (1 << 48) - i64::from(x) * i64::from(m);
-    let r = (i64::from(x) << 15) + ((i64::from(x) * error) >> 33);
-    u32::try_from(r).unwrap_or(u32::MAX)
+    ((i64::from(x) << 15) + ((i64::from(x) * error) >> 33)) as u32
+}
+
+/// [`refined`] in products of 32 bits: 25 instructions on ARMv6-M for 100. Every one of the 2^31 `m` was
+/// tried: equal, and no step overflows but the first, which wraps.
+///
+/// The error is `high 2^15 + low`, `|high| <= 2^18` and `low < 2^15`; `x` is `x1 2^9 + x0`.
+#[inline]
+fn refined_split(x: u32, m: u32) -> u32 {
+    // 2^33 - x (m >> 15), which fits, from its low 32 bits.
+    let high = signed(x.wrapping_mul(m >> 15).wrapping_neg());
+    let rest = x * (m & 0x7fff);
+    let high = high - bits((rest + 0x7fff) >> 15);
+    let low = rest.wrapping_neg() & 0x7fff;
+    let sum = bits(x & 0x1ff) * high + bits((x * low) >> 15);
+    let step = (bits(x >> 9) * high + (sum >> 9)) >> 9;
+    // 2^31 to 2^32: the step may be negative.
+    (x << 15).wrapping_add_signed(step)
 }
 
 /// A positive real `mantissa * 2^exponent` with `mantissa` in `[2^31, 2^32)`, or zero with mantissa
@@ -273,6 +350,27 @@ mod tests {
             let r = u128::from(reciprocal(m));
             assert!(exact.abs_diff(r) << 29 <= exact, "1 / {m}: {r}, not {exact}");
         }
+    }
+
+    #[test]
+    fn reciprocals_of_small_cores_are_the_same() {
+        for m in mantissas().chain([u32::MAX, u32::MAX - 1]) {
+            let x = reciprocal_estimate(m);
+            assert_eq!(refined_split(x, m), refined(x, m), "{m}");
+            let exact = (1u64 << 48) / u64::from(m);
+            assert!(exact.abs_diff(u64::from(x)) << 15 <= exact + (1 << 15), "{m}: {x}");
+            assert!((1 << 16..1 << 17).contains(&x));
+        }
+    }
+
+    #[test]
+    fn normalized_sets_the_top_bit() {
+        for v in (0..32).flat_map(|n| [1 << n, (1 << n) | 1, (2u32 << n).wrapping_sub(1)]) {
+            let zeros = v.leading_zeros();
+            assert_eq!(normalized_by_halves(v), (v << zeros, zeros), "{v}");
+            assert_eq!(normalized(v), (v << zeros, zeros), "{v}");
+        }
+        assert_eq!((normalized(0), normalized_by_halves(0)), ((0, 0), (0, 31)));
     }
 
     #[test]

@@ -14,7 +14,7 @@ pub(crate) use quick::{GUARD_BAND, HOMOGENEOUS_BITS};
 pub use quick::{Quick, QuickPosition};
 pub use viewport::{Rect, Viewport, ViewportSize};
 
-use crate::math::{Scale, bits, high, low, shr_round};
+use crate::math::{Scale, bits, high, low, shr_round, unsigned};
 use fixed::types::I16F16;
 
 /// A point in clip space: `x / w` and `y / w` in `[-1, 1]` are on the screen, y up, and `z / w` is
@@ -203,16 +203,26 @@ impl Outside {
     /// The outcodes of a vertex against the eye or hither plane, and the viewport's sides.
     #[inline]
     pub(crate) fn of(vertex: &ClipVertex, hither: i64) -> Self {
-        let [x, y, z, w] = vertex.raw.map(i64::from);
+        let [x, y, z, w] = vertex.raw;
+        // Where w is below 2^28, a sum that wraps is above 8 w too.
+        let within =
+            |v: i32, shift: u32| unsigned(v.wrapping_add(w << shift)) <= unsigned(w) << (shift + 1);
+        let small = unsigned(w) < 1 << 28;
+        let rest = if small && within(x, 0) && within(y, 0) && within(z, 2) {
+            0
+        } else {
+            Self::beyond(vertex.raw)
+        };
+        Self(rest | u16::from(!vertex.reaches(hither)))
+    }
+
+    /// The outcodes but for `w`, of any coordinates: `-w` does not always fit, `!w` = `-w - 1` does.
+    #[inline(never)]
+    fn beyond([x, y, z, w]: [i32; 4]) -> u16 {
         let bit = |outside: bool, n: u16| u16::from(outside) << n;
-        Self(
-            bit(!vertex.reaches(hither), 0)
-                | bit(x + w < 0, 1)
-                | bit(w - x < 0, 2)
-                | bit(y + w < 0, 3)
-                | bit(w - y < 0, 4)
-                | bit(z.abs() > 4 * w, 15),
-        )
+        // |z| - 1, or -1 for 0; |z| > 4 w where this is at least 4 w.
+        let depth = if z > 0 { z - 1 } else { !z };
+        bit(x <= !w, 1) | bit(x > w, 2) | bit(y <= !w, 3) | bit(y > w, 4) | bit(depth >> 2 >= w, 15)
     }
 }
 
@@ -229,7 +239,12 @@ pub(crate) fn shift_to_fit(magnitudes: [u32; 3], limit_bits: u32) -> i32 {
 #[inline]
 #[expect(clippy::cast_sign_loss, reason = "both casts are of what was tested to be positive")]
 pub(crate) fn shift_round(v: i32, shift: i32) -> i32 {
-    if shift >= 0 { v << shift } else { low(shr_round(i64::from(v), -shift as u32)) }
+    if shift >= 0 {
+        v << shift
+    } else {
+        let shift = -shift as u32;
+        (v >> shift) + ((v >> (shift - 1)) & 1)
+    }
 }
 
 #[cfg(test)]
@@ -249,6 +264,37 @@ mod tests {
         let extreme = ClipVertex::from_wide([i64::MIN, i64::MAX, 0, 1]);
         assert_eq!(extreme.shift, 34);
         assert_eq!(extreme.raw, [-(1 << 29), 1 << 29, 0, 0]);
+    }
+
+    #[test]
+    fn outcodes_equal_wide_comparisons() {
+        let small = [0, 1, 2, 3, 4, 5, 7, 8, 9, 1000].into_iter();
+        let powers = (26..32).flat_map(|n| [-1, 0, 1].map(|d| (1i64 << n) + d));
+        let ends: std::vec::Vec<i32> =
+            small.chain(powers).flat_map(|v| [v, -v]).filter_map(|v| v.try_into().ok()).collect();
+        let wide = |raw: [i32; 4]| {
+            let [x, y, z, w] = raw.map(i64::from);
+            let outside = [w < 1, x + w < 0, w - x < 0, y + w < 0, w - y < 0];
+            let bits = outside.into_iter().enumerate().map(|(n, outside)| u16::from(outside) << n);
+            bits.sum::<u16>() | u16::from(z.abs() > 4 * w) << 15
+        };
+        for &w in &ends {
+            for &v in &ends {
+                for raw in [[v, 0, 0, w], [0, v, 0, w], [0, 0, v, w], [v, v, v, w]] {
+                    let got = Outside::of(&ClipVertex { raw, shift: 0 }, 1).0;
+                    assert_eq!(got, wide(raw), "{raw:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn shift_round_rounds_as_wide_numbers() {
+        for v in [0, 1, -1, 5, -5, 6, -6, i32::MAX, i32::MIN, i32::MAX - 1, 1 << 30, -1 << 29] {
+            for n in 1..31 {
+                assert_eq!(shift_round(v, -n), low(shr_round(i64::from(v), n as u32)), "{v} {n}");
+            }
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! the largest coordinate is always in `(2^19, 2^20]`, unless all are 0.
 
 use super::{ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, shift_round, shift_to_fit};
-use crate::math::{Scale, reciprocal};
+use crate::math::{Scale, bits, normalized, reciprocal_estimate};
 
 /// The exact tier: homogeneous snap, coverage equal to exact rational arithmetic for every input on
 /// the grid, slivers, `w <= 0` and external triangles included.
@@ -40,56 +40,56 @@ impl Snap for Exact {
 
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "the shift is -11 - 34 to 20")]
+    #[expect(clippy::cast_sign_loss, reason = "columns and rows are 0 to 512")]
     fn snap(vertex: &ClipVertex, _hither: i64, viewport: &Viewport) -> ExactPosition {
         let [x, y, _, w] = vertex.raw;
         let largest = [x, y, w].map(i32::unsigned_abs);
         let shift = shift_to_fit(largest, Self::COORDINATE_BITS);
         let [x, y, w] = [x, y, w].map(|v| shift_round(v, shift));
-        let (width, height) = (viewport.width, viewport.height);
-        // The same point of the screen with w >= 0.
-        let (sx, sy, sw) = if w < 0 { (-x, -y, -w) } else { (x, y, w) };
-        ExactPosition {
-            x,
-            y,
-            w,
-            column: first_centre(width * (sx + sw), 2 * sw, width),
-            row: first_centre(height * (sw - sy), 2 * sw, height),
-            shift: (shift - i32::from(vertex.shift)) as i8,
-        }
+        let [column, row] = first_pixel([x, y, w], viewport);
+        let shift = (shift - i32::from(vertex.shift)) as i8;
+        ExactPosition { x, y, w, column: column as u16, row: row as u16, shift }
     }
 }
 
-/// The first pixel whose centre is at or beyond `n / d`, in `0 ..= limit`: `ceil(n / d - 1/2)`
-/// clamped. 0 where `d` is 0.
-///
-/// `|n| <= 2^30`, `0 <= d <= 2^21`, `limit <= 512`. No division: the quotient in range is at most
-/// 512, and `2^63 / d` from the reciprocal is off by one part in 2^29 at most, so a floor of the
-/// product is off by at most one, and the ceiling is at most two above; exact comparisons mend
-/// that.
+/// The first column and row whose centre is not left of or above a homogeneous point of at most
+/// `2^20` in magnitude (its mirror image through the eye where `w < 0`), clamped to the viewport's
+/// size; 0 where `w` is 0.
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "0 to 512")]
-#[expect(clippy::cast_sign_loss, reason = "0 to 512")]
-pub(crate) fn first_centre(n: i32, d: i32, limit: i32) -> u16 {
-    // The first X with (2 X + 1) d >= 2 n.
-    let doubled = 2 * i64::from(n) - i64::from(d);
-    if d <= 0 || doubled <= 0 {
+pub(crate) fn first_pixel([x, y, w]: [i32; 3], viewport: &Viewport) -> [i32; 2] {
+    // The same point of the screen with w > 0.
+    let (x, y, w) = if w < 0 { (-x, -y, -w) } else { (x, y, w) };
+    if w == 0 {
+        return [0, 0];
+    }
+    let (divisor, zeros) = normalized(w.unsigned_abs());
+    let inverse = reciprocal_estimate(divisor);
+    let first = |u: i32, side: i32| first_centre(u, w, [zeros, inverse], side);
+    [first(x + w, viewport.width), first(w - y, viewport.height)]
+}
+
+/// The first pixel whose centre is at or beyond `side u / (2 w)`: `ceil(side u / (2 w) - 1/2)`, in
+/// `0 ..= side`.
+///
+/// `0 < w <= 2^20`, `|u| <= 2^21`, `side <= 512`, and [`reciprocal_estimate`] of `w 2^zeros`. No
+/// division and no 64-bit product: `u / w` is below 2 inside, and its estimate in Q30 is at most
+/// 2^-14 (the reciprocal) above and 2^-14 + 2^-13 (`u` cut to 15 bits) + 2^-20 below: 2^-6 and 2^-4.4
+/// of a pixel. Less 2^-6 it is never above, so the ceiling is right or one too small, and an exact
+/// comparison says which.
+#[inline]
+fn first_centre(u: i32, w: i32, [zeros, inverse]: [u32; 2], side: i32) -> i32 {
+    if u <= 0 {
         return 0;
     }
-    let zeros = d.leading_zeros();
-    let inverse = i64::from(reciprocal(d.unsigned_abs() << zeros));
-    let d = i64::from(d);
-    if doubled > 2 * d * i64::from(limit - 1) {
-        return limit as u16;
+    if u >= 2 * w {
+        return side;
     }
-    // doubled / (2 d): below 2^31 times below 2^32, shifted down by 63 - zeros + 1.
-    let mut first = (doubled * inverse) >> (64 - zeros);
-    if first * 2 * d >= doubled + 2 * d {
-        first -= 1;
-    }
-    while first * 2 * d < doubled {
-        first += 1;
-    }
-    first as u16
+    // u 2^zeros / 2 is below 2^32, since w 2^zeros is; zeros is 11 or more.
+    let ratio = ((u.unsigned_abs() << (zeros - 1)) >> 17) * inverse;
+    // Pixels in Q21: below 2^30 + 2^16.
+    let estimate = bits(ratio >> 10) * side - (1 << 20) - (1 << 15);
+    let first = (estimate + ((1 << 21) - 1)) >> 21;
+    first + i32::from(2 * w * first < side * u - w)
 }
 
 impl Position for ExactPosition {
@@ -114,7 +114,7 @@ impl Position for ExactPosition {
 const _: () = assert!(size_of::<ExactPosition>() == 20, "the size its documentation states");
 const _: () = assert!(
     (2 * (Viewport::MAX_SIDE as i64)) << Exact::COORDINATE_BITS <= 1 << 30,
-    "W (x + w) fits 31 bits, as first_centre assumes"
+    "W (x + w) fits 31 bits, as first_centre has it"
 );
 
 #[cfg(test)]
@@ -150,29 +150,55 @@ mod tests {
         assert_eq!([p.x, p.y, p.w], [-(1 << 20), 1 << 20, -(1 << 20)]);
     }
 
-    #[test]
-    fn first_centre_equals_division() {
-        let check = |n: i32, d: i32, limit: i32| {
-            let exact = (2 * i64::from(n) - i64::from(d) + 2 * i64::from(d) - 1)
-                .div_euclid(2 * i64::from(d))
-                .clamp(0, i64::from(limit));
-            assert_eq!(i64::from(first_centre(n, d, limit)), exact, "{n} / {d} up to {limit}");
+    /// Every column is the first whose centre is at or beyond the point, by division.
+    fn check([x, y, w]: [i32; 3], side: u32) {
+        let vp = Viewport::new(side, side).unwrap();
+        let sign = i64::from(w.signum());
+        let exact = |u: i64| {
+            let (n, d) = (i64::from(side) * u * sign, 2 * i64::from(w) * sign);
+            if d == 0 {
+                return 0;
+            }
+            (2 * n - d + 2 * d - 1).div_euclid(2 * d).clamp(0, i64::from(side))
         };
-        for d in (1..2000).chain((0..2000).map(|i| (1 << 21) - i)) {
-            for x in [0, 1, 2, 17, 239, 240, 511, 512] {
-                for off in [-1, 0, 1] {
-                    // On, just before and just after a centre.
-                    let n = i64::from(d) * (2 * x + 1) / 2 + off;
-                    if n.abs() <= 1 << 30 {
-                        check(n as i32, d, 240);
-                        check(n as i32, d, 512);
-                        check(n as i32, d, 1);
+        let want = [i64::from(x) + i64::from(w), i64::from(w) - i64::from(y)].map(exact);
+        let got = first_pixel([x, y, w], &vp).map(i64::from);
+        assert_eq!(got, want, "{x} {y} {w} on {side}");
+    }
+
+    #[test]
+    fn first_pixels_equal_division_at_centres() {
+        for w in (1..600).chain((0..600).map(|i| (1 << 20) - i)).chain((10..20).map(|i| 1 << i)) {
+            for column in [0, 1, 2, 17, 239, 240, 511, 512] {
+                for side in [1, 240, 511, 512] {
+                    // On, just before and just after a centre: side (x + w) = (column + 1/2) 2 w.
+                    let on = i64::from(w) * (2 * column + 1) / i64::from(side) - i64::from(w);
+                    for x in [on - 1, on, on + 1].map(|v| v.clamp(-(1 << 20), 1 << 20) as i32) {
+                        check([x, -x, w], side);
+                        check([x, x, -w], side);
                     }
                 }
             }
         }
-        check(-(1 << 30), 1, 512);
-        check(1 << 30, 1 << 21, 512);
-        assert_eq!(first_centre(1 << 30, 0, 512), 0);
+    }
+
+    #[test]
+    fn first_pixels_equal_division_anywhere() {
+        const TOP: i32 = 1 << 20;
+        let mut seed = 3u64;
+        for i in 0..300_000u32 {
+            let mut draw = |size: u32| {
+                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+                ((seed >> 32) as i32) >> size
+            };
+            let v = [draw(12 + i % 13), draw(12 + i % 7), draw(11 + i % 19)];
+            check(v.map(|v| v.clamp(-TOP, TOP)), 1 + draw(0).unsigned_abs() % 512);
+        }
+        for x in [-TOP, 1 - TOP, -1, 0, 1, TOP - 1, TOP] {
+            for w in [-TOP, 1 - TOP, -1, 0, 1, TOP - 1, TOP] {
+                check([x, x, w], 512);
+                check([x, -x, w], 1);
+            }
+        }
     }
 }

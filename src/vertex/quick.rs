@@ -6,9 +6,9 @@
 //! `(W (x + w), H (w - y), 2 w)`. The vertex decides, from its unsnapped values, never the
 //! triangle, so the edge that two triangles share is the same edge to the bit.
 
-use super::exact::first_centre;
+use super::exact;
 use super::{ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, shift_round, shift_to_fit};
-use crate::math::{Scale, bits, high, low, reciprocal};
+use crate::math::{SMALL_CORE, Scale, bits, high, low, normalized, reciprocal, unsigned};
 
 /// A quick tier with `BITS` subpixel bits: 4 or 8. Coverage is exact on the snapped vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,38 +48,125 @@ impl<const BITS: u32> Snap for Quick<BITS> {
     #[inline]
     fn snap(vertex: &ClipVertex, hither: i64, viewport: &Viewport) -> QuickPosition<BITS> {
         const { Self::CHECK }
-        let [x, y, _, w] = vertex.raw.map(i64::from);
-        // Pixel space, times 2 w: 42 bits.
-        let across = i64::from(viewport.width) * (x + w);
-        let down = i64::from(viewport.height) * (w - y);
-        let limit = 2 * GUARD_BAND * w;
-        let inside = across.abs() <= limit && down.abs() <= limit;
-        if inside && w > 0 && vertex.reaches(hither) {
-            project(vertex, across, down)
+        let [x, y, _, w] = vertex.raw;
+        // Around the screen: x + w and w - y within 4 w, so that even 512 pixels are in the guard band.
+        let five = w.wrapping_mul(5);
+        let [right, down] = [unsigned(five.wrapping_add(x)), unsigned(five.wrapping_sub(y))];
+        let near = 0 < w && w < NEAR;
+        let width = unsigned(w) << 3;
+        if near && right <= width && down <= width && vertex.reaches(hither) {
+            project_near(vertex, viewport)
         } else {
-            homogeneous(vertex)
+            snap_any(vertex, hither, viewport)
         }
+    }
+}
+
+/// Raw `w` below this, 4096, leave eight times `w` in 31 bits: see [`project_near`].
+const NEAR: i32 = 1 << 28;
+
+const _: () = assert!(
+    4 * Viewport::MAX_SIDE as i64 <= 2 * GUARD_BAND,
+    "a vertex with x + w <= 4 w is in the guard band"
+);
+
+/// Projects a vertex around the screen, which nearly all are: `0 < w < 2^28`, `|x + w|` and `|w -
+/// y|` at most `4 w`. The same numbers as [`project`], in 32 bits.
+#[inline]
+fn project_near<const BITS: u32>(v: &ClipVertex, viewport: &Viewport) -> QuickPosition<BITS> {
+    let [x, y, _, w] = v.raw;
+    let (divisor, zeros) = normalized(w.unsigned_abs());
+    let inverse = reciprocal(divisor);
+    let quotient = |u: i32, side: i32| {
+        // |u 2^zeros / 16| is at most a quarter of the divisor: below 2^30. zeros is 4 or more.
+        let ratio = ratio(u << (zeros - 4), inverse);
+        quotient_near::<BITS>(u, w, ratio, side)
+    };
+    let [x, y] = [quotient(x + w, viewport.width), quotient(w - y, viewport.height)];
+    projected([x, y], inverse, zeros, v.shift)
+}
+
+/// `u inverse / 2^40` for `|u| < 2^30`: never above the one with the true reciprocal, and less than
+/// 1 + 2^-5 below.
+///
+/// The reciprocal is off by one part in 2^29 at most, 2^-10 of a unit of the result.
+#[inline]
+fn ratio(u: i32, inverse: u32) -> i32 {
+    if SMALL_CORE {
+        ratio_split(u, inverse)
+    } else {
+        // 2^-7 of a unit; the reciprocal is 0.6 of these off at most.
+        (low((i64::from(u) * i64::from(inverse >> 1)) >> 32) - 1) >> 7
+    }
+}
+
+/// [`ratio`] from three 32-bit products; `u` is `high 2^15 + low`, of 15 bits each.
+#[inline]
+fn ratio_split(u: i32, inverse: u32) -> i32 {
+    let (high, low) = (u >> 15, u & 0x7fff);
+    let [top, rest] = [inverse >> 16, inverse & 0xffff].map(bits);
+    // 2^-9 of a unit, at most 3 below by what is cut; the reciprocal is 2 of these off at most.
+    (high * top + ((high * rest) >> 16) + ((low * top) >> 15) - 2) >> 9
+}
+
+/// `side u 2^BITS / (2 w)`, rounded to nearest (halves up), from `u / w` in Q19 as [`ratio`] has it.
+///
+/// The ratio is at most 2^-18.9 too small and never too large: `2^(BITS - 10.9)` of a subpixel at 512
+/// pixels, so the estimate is right or one too small. The remainder says which: it is in `[0, 4 w)`,
+/// below 2^30, so its low 32 bits are all of it, whatever its terms are.
+#[inline]
+fn quotient_near<const BITS: u32>(u: i32, w: i32, ratio: i32, side: i32) -> i32 {
+    // At most (2^21 + 1) 2^9 + 2^15.
+    let estimate = (ratio * side + (1 << (19 - BITS))) >> (20 - BITS);
+    let two_w = 2 * w;
+    // u side 2^BITS / two_w + 1/2 = (u side 2^BITS + w) / two_w, floored.
+    let across = u.wrapping_mul(side) << BITS;
+    let remainder = across.wrapping_add(w).wrapping_sub(estimate.wrapping_mul(two_w));
+    estimate + i32::from(remainder >= two_w)
+}
+
+/// Snaps any vertex. Not inlined: the rest is one path then, and short.
+#[inline(never)]
+fn snap_any<const BITS: u32>(
+    vertex: &ClipVertex,
+    hither: i64,
+    viewport: &Viewport,
+) -> QuickPosition<BITS> {
+    let [x, y, _, w] = vertex.raw.map(i64::from);
+    // Pixel space, times 2 w: 42 bits.
+    let across = i64::from(viewport.width) * (x + w);
+    let down = i64::from(viewport.height) * (w - y);
+    let limit = 2 * GUARD_BAND * w;
+    let inside = across.abs() <= limit && down.abs() <= limit;
+    if inside && w > 0 && vertex.reaches(hither) {
+        project(vertex, across, down)
+    } else {
+        homogeneous(vertex)
     }
 }
 
 /// Projects a vertex: `w > 0`, `|across|` and `|down|` at most `2048 w`.
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "the exponent is -61 to 8")]
 fn project<const BITS: u32>(v: &ClipVertex, across: i64, down: i64) -> QuickPosition<BITS> {
-    let w = v.raw[3].unsigned_abs();
-    let zeros = w.leading_zeros();
-    let divisor = w << zeros;
+    let (divisor, zeros) = normalized(v.raw[3].unsigned_abs());
     let inverse = reciprocal(divisor);
+    let quotient = |n: i64| quotient::<BITS>(n << zeros, divisor, inverse);
+    projected([quotient(across), quotient(down)], inverse, zeros, v.shift)
+}
+
+/// A projected vertex, from its subpixels and what its `w` was divided by.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "the exponent is -61 - 34 to 8")]
+fn projected<const BITS: u32>(
+    [x, y]: [i32; 2],
+    inverse: u32,
+    zeros: u32,
+    shift: u8,
+) -> QuickPosition<BITS> {
     // k = 2^(BITS - 1) / w, and 1 / (w 2^zeros) = inverse / 2^63.
-    let exponent = bits(BITS) - 1 + bits(zeros) - 63 - i32::from(v.shift);
-    QuickPosition {
-        x: quotient::<BITS>(across << zeros, divisor, inverse),
-        y: quotient::<BITS>(down << zeros, divisor, inverse),
-        w: 1 << BITS,
-        mantissa: inverse,
-        exponent: exponent as i8,
-        projected: true,
-    }
+    let exponent = bits(BITS) - 1 + bits(zeros) - 63 - i32::from(shift);
+    let (w, exponent) = (1 << BITS, exponent as i8);
+    QuickPosition { x, y, w, mantissa: inverse, exponent, projected: true }
 }
 
 /// `n 2^BITS / (2 d)`, rounded to nearest (halves up), for `d` in `[2^31, 2^32)` and
@@ -150,12 +237,7 @@ impl<const BITS: u32> QuickPosition<BITS> {
             // Sides are positive; `clamp` would keep a panic for negative ones in the binary.
             [first(self.x).min(width).max(0), first(self.y).min(height).max(0)]
         } else {
-            let [x, y, w] = self.in_pixels(viewport).map(low);
-            let sign = w.signum();
-            [
-                i32::from(first_centre(sign * x, sign * w, width)),
-                i32::from(first_centre(sign * y, sign * w, height)),
-            ]
+            exact::first_pixel([self.x, self.y, self.w], viewport)
         }
     }
 }
@@ -222,6 +304,92 @@ mod tests {
             }
         }
         assert!(projected > 10_000);
+    }
+
+    /// Vertices around the screen are as any vertex is.
+    fn near_is_as_any<const BITS: u32>() {
+        let mut seed = 11u64;
+        let mut near = 0;
+        for i in 0..400_000u32 {
+            let mut draw = || {
+                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+                (seed >> 32) as u32
+            };
+            let side = |v: u32| if v & 7 == 0 { 512 } else { 1 + (v >> 3) % 512 };
+            let vp = Viewport::new(side(draw()), side(draw())).unwrap();
+            let w = match draw() & 7 {
+                0 => NEAR - 1 - (draw() & 3) as i32,
+                1 => 1 << (i % 28),
+                2 => (1 << (i % 28)) - 1,
+                _ => ((draw() >> 1) >> (3 + i % 28)) as i32,
+            };
+            let w = w.max(1);
+            let hither = if draw() & 1 == 0 { 1 } else { i64::from(w) };
+            let [a, b, last] = [draw(), draw(), draw()];
+            let other = |u: u32| match u & 15 {
+                // At the ends of the band, and of halves of a subpixel.
+                0 => -5 * i64::from(w) + i64::from(u >> 30) - 1,
+                1 => 3 * i64::from(w) + i64::from(u >> 30) - 1,
+                2..7 => {
+                    let step = i64::from((u >> 8) % (8 << 9));
+                    let half = i64::from(w) * (2 * step + 1) / (i64::from(vp.width) << BITS);
+                    half - i64::from(w) + i64::from(u >> 30) - 1
+                }
+                _ => i64::from(u ^ last) % (10 * i64::from(w)) - 6 * i64::from(w),
+            };
+            let (x, y) = (other(a), other(b));
+            let (Ok(x), Ok(y)) = (i32::try_from(x), i32::try_from(-y)) else { continue };
+            let vertex = ClipVertex { raw: [x, y, 0, w], shift: (i % 9) as u8 };
+            let got = Quick::<BITS>::snap(&vertex, hither, &vp);
+            assert_eq!(got, snap_any(&vertex, hither, &vp), "{vertex:?} in {vp:?}");
+            let inside = |u: i64| u.abs() <= 4 * i64::from(w);
+            if inside(i64::from(x) + i64::from(w)) && inside(i64::from(w) - i64::from(y)) {
+                assert_eq!(got, project_near(&vertex, &vp), "{vertex:?} in {vp:?}");
+                near += 1;
+            }
+        }
+        assert!(near > 200_000);
+    }
+
+    #[test]
+    fn vertices_around_the_screen_are_as_any() {
+        near_is_as_any::<4>();
+        near_is_as_any::<8>();
+    }
+
+    #[test]
+    fn extreme_vertices_are_as_any() {
+        let vp = Viewport::new(512, 1).unwrap();
+        let ends = [i32::MIN, i32::MIN + 1, -NEAR, -1, 0, 1, NEAR, i32::MAX - 1, i32::MAX];
+        let steps = [-5, -4, -3, -1, 0, 1, 3, 4, 5, 8];
+        for w in ends.into_iter().chain([NEAR - 1, NEAR + 1, 1 << 29, 1 << 30]) {
+            let near = steps.map(|n| w.wrapping_mul(n)).into_iter();
+            let all = ends.into_iter().chain(near).flat_map(|v| [v, v.wrapping_add(1)]);
+            for (x, y) in all.clone().flat_map(|x| all.clone().map(move |y| (x, y))) {
+                let vertex = ClipVertex { raw: [x, y, 0, w], shift: 0 };
+                let got = Quick::<8>::snap(&vertex, 1, &vp);
+                assert_eq!(got, snap_any(&vertex, 1, &vp), "{vertex:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn ratios_are_close() {
+        let mut seed = 7u64;
+        for i in 0..200_000u32 {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            let divisor = (1 << 31) | (seed >> 20) as u32;
+            let u = ((seed >> 32) as i32 >> (2 + i % 20))
+                .clamp(-bits(divisor >> 2), bits(divisor >> 2));
+            // u 2^63 / divisor, in 2^-40.
+            let exact = (i128::from(u) << (23 + 32)) / i128::from(divisor);
+            let inverse = reciprocal(divisor);
+            let long = (low((i64::from(u) * i64::from(inverse >> 1)) >> 32) - 1) >> 7;
+            for got in [long, ratio_split(u, inverse)] {
+                let below = exact - (i128::from(got) << 32);
+                assert!((0..=(1 << 32) + (1 << 27)).contains(&below), "{u} / {divisor}: {got}");
+            }
+        }
     }
 
     #[test]
