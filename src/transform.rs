@@ -5,6 +5,9 @@
 //! a row times a position of 32 bits at most `3 (2^29 2^31) + 2^62 < 2^63`. Each is rounded once,
 //! to half a raw step (2^-17). What a product of matrices cannot hold is an error; what a position
 //! cannot hold is shifted, all four coordinates together, so it stays where it is on the screen.
+//!
+//! Positions that are small beside the matrix, which is nearly all, are known to fit beforehand
+//! ([`Mat4::narrow`]): the same numbers, from 32-bit products where those are cheaper.
 
 mod angle;
 #[cfg(feature = "micromath")]
@@ -14,7 +17,7 @@ pub use angle::{Angle, SinCos};
 #[cfg(feature = "micromath")]
 pub use float::FloatError;
 
-use crate::math::{low, shr_round};
+use crate::math::{low, shr_round, unsigned};
 use crate::vertex::ClipVertex;
 use fixed::types::I16F16;
 
@@ -37,15 +40,41 @@ pub type Vec3 = [I16F16; 3];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mat4 {
     rows: [[i32; 4]; 4],
+    /// The left three entries of each row are at most `2^size` together, 15 to 28, and translations
+    /// below 2^30; or [`WIDE`].
+    size: u8,
 }
+
+/// The [`size`](Mat4::size) of a matrix that [`Mat4::narrow`] does not do.
+const WIDE: u8 = 31;
 
 impl Mat4 {
     /// The matrix that changes nothing.
     pub const IDENTITY: Self =
-        Self { rows: [[ONE, 0, 0, 0], [0, ONE, 0, 0], [0, 0, ONE, 0], [0, 0, 0, ONE]] };
+        Self::of([[ONE, 0, 0, 0], [0, ONE, 0, 0], [0, 0, ONE, 0], [0, 0, 0, ONE]]);
 
     /// Entries of the left three columns are at most this in magnitude, raw.
     const LIMIT: i64 = 8192 << 16;
+
+    /// From raw rows in range.
+    #[expect(clippy::cast_possible_truncation, reason = "15 to 32")]
+    const fn of(rows: [[i32; 4]; 4]) -> Self {
+        let mut largest = 0;
+        let mut moved = 0;
+        let mut rest = rows.as_slice();
+        while let Some(([a, b, c, t], others)) = rest.split_first() {
+            // At most 3 2^29, so the sum does not wrap.
+            let sum = a.unsigned_abs() + b.unsigned_abs() + c.unsigned_abs();
+            if sum > largest {
+                largest = sum;
+            }
+            moved |= t.unsigned_abs();
+            rest = others;
+        }
+        let size = (32 - (largest | 1 << 14).leading_zeros()) as u8;
+        let size = if size > 28 || moved >= 1 << 30 { WIDE } else { size };
+        Self { rows, size }
+    }
 
     /// A matrix from its rows.
     ///
@@ -72,7 +101,7 @@ impl Mat4 {
                 }
             }
         }
-        Ok(Self { rows: raw.map(|row| row.map(low)) })
+        Ok(Self::of(raw.map(|row| row.map(low))))
     }
 
     /// The product: `rhs` is applied first.
@@ -97,8 +126,7 @@ impl Mat4 {
     #[must_use]
     pub const fn translation(by: Vec3) -> Self {
         let [x, y, z] = [by[0].to_bits(), by[1].to_bits(), by[2].to_bits()];
-        let rows = [[ONE, 0, 0, x], [0, ONE, 0, y], [0, 0, ONE, z], [0, 0, 0, ONE]];
-        Self { rows }
+        Self::of([[ONE, 0, 0, x], [0, ONE, 0, y], [0, 0, ONE, z], [0, 0, 0, ONE]])
     }
 
     /// Scales each axis.
@@ -116,21 +144,21 @@ impl Mat4 {
     #[must_use]
     pub fn rotation_x(by: SinCos) -> Self {
         let (s, c) = by.raw();
-        Self { rows: [[ONE, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, ONE]] }
+        Self::of([[ONE, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, ONE]])
     }
 
     /// Turns about the y axis, z towards x.
     #[must_use]
     pub fn rotation_y(by: SinCos) -> Self {
         let (s, c) = by.raw();
-        Self { rows: [[c, 0, s, 0], [0, ONE, 0, 0], [-s, 0, c, 0], [0, 0, 0, ONE]] }
+        Self::of([[c, 0, s, 0], [0, ONE, 0, 0], [-s, 0, c, 0], [0, 0, 0, ONE]])
     }
 
     /// Turns about the z axis, x towards y.
     #[must_use]
     pub fn rotation_z(by: SinCos) -> Self {
         let (s, c) = by.raw();
-        Self { rows: [[c, -s, 0, 0], [s, c, 0, 0], [0, 0, ONE, 0], [0, 0, 0, ONE]] }
+        Self::of([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, ONE, 0], [0, 0, 0, ONE]])
     }
 
     /// The view from `eye` towards `target`: x to the right, y up, looking along negative z.
@@ -193,10 +221,64 @@ impl Mat4 {
 
     /// A position to clip space.
     ///
-    /// Three products a coordinate, summed in 64 bits and rounded once.
+    /// Three products a coordinate, rounded once.
     #[inline]
     #[must_use]
     pub fn transform(&self, position: ModelPosition) -> ClipVertex {
+        self.narrow::<LONG_MULTIPLY>(position).unwrap_or_else(|| self.transform_wide(position))
+    }
+
+    /// [`transform`](Self::transform) where nothing leaves the range: sums of products in 64 bits if
+    /// `LONG`, in 32 otherwise.
+    ///
+    /// With `f` bits of fraction (for none, twice the position has one) and a row of at most `2^r`, in
+    /// 32 bits a coordinate is split at `s = min(30 - r, f - 1)` bits into `h 2^s + l`. Then `(a x + b y +
+    /// c z) / 2^f`, rounded, is `(H + floor(L / 2^s) + 2^(f - 1 - s)) / 2^(f - s)`, floored, where `H` and
+    /// `L` are the row's products with the high and the low parts:
+    ///
+    /// | | at most | |
+    /// | --- | --- | --- |
+    /// | `x` | `2^(30 - r + s)`, if `LONG` `2^(30 - r + f)` | tested |
+    /// | `H` | `2^r 2^(30 - r) = 2^30` | |
+    /// | `L` | `2^r 2^s`: 2^30 | |
+    /// | `floor(L / 2^s) + 2^(f - 1 - s)` | below 2^30 | `2^(30 - s)` each where `s > 1`; 2^29 + 1 |
+    /// | the quotient | 2^30 | `f - s` is 1 or more |
+    /// | with the translation | 2^31 - 1 | translations are below 2^30 |
+    #[inline(always)]
+    fn narrow<const LONG: bool>(&self, position: ModelPosition) -> Option<ClipVertex> {
+        if self.size == WIDE {
+            return None;
+        }
+        let spare = 30 - u32::from(self.size);
+        let (fraction, double) = match position.fraction_bits.min(31) {
+            0 => (1, 1),
+            fraction => (fraction, 0),
+        };
+        let split = spare.min(fraction - 1);
+        let room = if LONG { fraction } else { split };
+        // At most 2^30 and a power of two, so only what is inside stays below twice as much.
+        let limit = 1 << ((spare + room).min(30) - double);
+        let [x, y, z] = position.raw.map(|v| unsigned(v.wrapping_add(limit)));
+        if (x | y | z) >= unsigned(limit) << 1 {
+            return None;
+        }
+        let position = position.raw.map(|v| v << double);
+        let row = |[a, b, c, t]: [i32; 4]| {
+            let entries = [a, b, c];
+            t + if LONG {
+                quotient_long(entries, position, fraction)
+            } else {
+                quotient_split(entries, position, fraction, split)
+            }
+        };
+        // Four calls: an array's `map` of this length is not inlined.
+        let [r0, r1, r2, r3] = self.rows;
+        Some(ClipVertex { raw: [row(r0), row(r1), row(r2), row(r3)], shift: 0 })
+    }
+
+    /// [`transform`](Self::transform) of any position, in 64 bits.
+    #[inline(never)]
+    fn transform_wide(&self, position: ModelPosition) -> ClipVertex {
         let [x, y, z] = position.raw;
         let fraction = position.fraction_bits.min(31);
         ClipVertex::from_wide(self.rows.map(|[a, b, c, t]| {
@@ -215,6 +297,29 @@ impl Mat4 {
         let column = |i: usize| [r0, r1, r2].map(|row| row.get(i).copied().unwrap_or(0));
         unit([along(column(0)), along(column(1)), along(column(2))])
     }
+}
+
+/// Whether three multiplications with 64-bit sums are cheaper than six in 32 bits: where one
+/// instruction multiplies and adds 64 bits. (m4f: 80 instructions a position for 119; m0: 176 for
+/// 800.)
+const LONG_MULTIPLY: bool = cfg!(all(target_arch = "arm", target_has_atomic = "32"));
+
+/// `v . position / 2^fraction`, rounded: [`Mat4::narrow`] says why it fits.
+#[inline(always)]
+fn quotient_long([a, b, c]: [i32; 3], [x, y, z]: [i32; 3], fraction: u32) -> i32 {
+    let half = 1i64 << (fraction - 1);
+    low((half + wide(a, x) + wide(b, y) + wide(c, z)) >> fraction)
+}
+
+/// The same, from 32-bit products.
+#[inline(always)]
+fn quotient_split(v: [i32; 3], position: [i32; 3], fraction: u32, split: u32) -> i32 {
+    let [[a, b, c], [x, y, z]] = [v, position];
+    let mask = (1 << split) - 1;
+    let high = a * (x >> split) + b * (y >> split) + c * (z >> split);
+    let low = a * (x & mask) + b * (y & mask) + c * (z & mask);
+    let half = 1 << (fraction - 1 - split);
+    (high + half + (low >> split)) >> (fraction - split)
 }
 
 /// A product of two raw entries.
@@ -333,6 +438,63 @@ mod tests {
             let bad = Mat4::perspective(fixed(focal), fixed(1.0), fixed(near), fixed(far));
             assert_eq!(bad, Err(MatrixError::Perspective));
         }
+    }
+
+    /// Matrices of any size, and positions of any size and fraction, at the ends of each as well.
+    #[test]
+    fn narrow_and_wide_agree() {
+        let mut seed = 5u64;
+        let mut draw = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            (seed >> 32) as i32
+        };
+        let mut narrow = [0; 32];
+        for i in 0..400_000u32 {
+            let (entry, moved, size) = (2 + i % 19, i % 5, i % 31);
+            let rows = core::array::from_fn(|_| {
+                let t = draw().max(-i32::MAX) >> moved;
+                let [a, b, c] = core::array::from_fn(|_| match draw() & 7 {
+                    0 => 1 << (31 - entry),
+                    1 => -1 << (31 - entry),
+                    2 => 0,
+                    _ => draw() >> entry,
+                });
+                [a, b, c, t]
+            });
+            let m = Mat4::of(rows);
+            let raw = core::array::from_fn(|_| match draw() & 7 {
+                0 => i32::MIN >> size,
+                1 => i32::MAX >> size,
+                2 => (i32::MAX >> size).saturating_add(1),
+                _ => draw() >> size,
+            });
+            for fraction_bits in [0, 1, 2, 8, 14, 16, 20, 30, 31, 99] {
+                let position = ModelPosition { raw, fraction_bits };
+                let wide = m.transform_wide(position);
+                let [split, long] = [m.narrow::<false>(position), m.narrow::<true>(position)];
+                assert_eq!(split.unwrap_or(wide), wide, "{m:?} {position:?}");
+                assert_eq!(long.unwrap_or(wide), wide, "{m:?} {position:?}");
+                assert!(split.is_none() || long.is_some());
+                narrow[fraction_bits.min(31) as usize] += u32::from(split.is_some());
+            }
+        }
+        assert!([0, 1, 2, 8, 14, 16, 20, 30, 31].map(|f| narrow[f]).iter().all(|&n| n > 40_000));
+    }
+
+    #[test]
+    fn usual_positions_are_narrow() {
+        let m = Mat4::perspective(fixed(1.7), fixed(1.0), fixed(1.0), fixed(100.0)).unwrap();
+        let scale = |by: f64| Mat4::scaling([fixed(by); 3]).unwrap();
+        let fits = |m: &Mat4, v: i32, fraction_bits| {
+            let position = ModelPosition { raw: [v, -v, v], fraction_bits };
+            [m.narrow::<false>(position), m.narrow::<true>(position)].map(|v| v.is_some())
+        };
+        // 16 bits from 3 of fraction on, and Q16.16 to 512 units, by a matrix of entries below 2.
+        assert!((3..32).all(|fraction| fits(&m, 32767, fraction) == [true; 2]));
+        assert_eq!(fits(&m, 512 << 16, 16), [true; 2]);
+        // 32-bit products fit fewer bits of a position than 64-bit sums where entries are large.
+        assert_eq!(fits(&scale(30.0), 32767, 12), [true; 2]);
+        assert_eq!(fits(&scale(100.0), 32767, 12), [false, true]);
     }
 
     #[test]
