@@ -14,6 +14,7 @@ use crate::mesh::{Mesh, StoredPosition, VertexStage};
 use crate::setup::{Part, Setup, Tier};
 use crate::traversal::ClipWalk;
 use crate::vertex::{ClipVertex, Distance, Outside, Rect, Vertex};
+use core::slice::from_mut;
 use fixed::types::I16F16;
 use shade::Shading;
 
@@ -110,7 +111,7 @@ where
     ///
     /// Snapped vertices may be kept as long as the viewport's size, the hither plane and the planes
     /// stay the same.
-    #[inline]
+    #[inline(always)]
     pub fn snap<const N: usize>(
         &self,
         vertex: &ClipVertex,
@@ -257,9 +258,7 @@ where
         F: Fragment<C::Color, N>,
         W: Interpolates<N>,
     {
-        for (index, entry) in cache.iter_mut().take(mesh.vertex_count()).enumerate() {
-            *entry = self.vertex(mesh, stage, index);
-        }
+        self.transform(mesh, stage, 0, cache);
         let mut counts = Counts::default();
         for (face, indices) in mesh.triangles().iter().enumerate() {
             let [i, j, k] = indices.map(|index| cache.get(usize::from(index)));
@@ -272,23 +271,25 @@ where
         counts
     }
 
-    /// A vertex of a mesh, transformed and snapped.
-    #[inline]
-    fn vertex<Q, A, S, const N: usize>(
+    /// A mesh's vertices from `first` on, transformed and snapped, as many as there are entries for.
+    ///
+    /// Not inlined, so that there is one copy of the vertex stage in a firmware.
+    #[inline(never)]
+    fn transform<Q, A, S, const N: usize>(
         &self,
         mesh: &Mesh<'_, Q, A>,
         stage: &S,
-        index: usize,
-    ) -> Vertex<T, N, P>
-    where
+        first: usize,
+        entries: &mut [Vertex<T, N, P>],
+    ) where
         Q: StoredPosition,
         S: VertexStage<A, N>,
         W: Interpolates<N>,
     {
-        mesh.vertex(index).map_or(Vertex::EMPTY, |(position, attribute)| {
+        for (entry, (position, attribute)) in entries.iter_mut().zip(mesh.vertices(first)) {
             let (clip, varyings) = stage.vertex(position, attribute);
-            self.snap(&clip, varyings)
-        })
+            *entry = self.snap(&clip, varyings);
+        }
     }
 
     /// Draws a triangle of a mesh of which some corners are not in the cache. Not inlined, so that
@@ -310,8 +311,10 @@ where
     {
         let mut corners = [Vertex::EMPTY; 3];
         for ((corner, index), cached) in corners.iter_mut().zip(indices).zip(cached) {
-            let transformed = || self.vertex(mesh, stage, usize::from(index));
-            *corner = cached.copied().unwrap_or_else(transformed);
+            match cached {
+                Some(cached) => *corner = *cached,
+                None => self.transform(mesh, stage, usize::from(index), from_mut(corner)),
+            }
         }
         let [a, b, c] = &corners;
         self.draw_snapped([a, b, c], fragment)

@@ -109,12 +109,15 @@ impl<'a, P, A> Mesh<'a, P, A> {
 }
 
 impl<P: StoredPosition, A> Mesh<'_, P, A> {
-    /// A vertex's position and attribute.
+    /// Positions and attributes of the vertices from `first` on.
     #[inline]
-    pub(crate) fn vertex(&self, index: usize) -> Option<(ModelPosition, &A)> {
-        let raw = self.positions.get(index)?.raw();
-        let position = ModelPosition { raw, fraction_bits: self.fraction_bits };
-        self.attributes.get(index).map(|attribute| (position, attribute))
+    pub(crate) fn vertices(&self, first: usize) -> impl Iterator<Item = (ModelPosition, &A)> {
+        let positions = self.positions.get(first..).unwrap_or_default().iter();
+        let attributes = self.attributes.get(first..).unwrap_or_default();
+        positions.zip(attributes).map(|(position, attribute)| {
+            let raw = position.raw();
+            (ModelPosition { raw, fraction_bits: self.fraction_bits }, attribute)
+        })
     }
 }
 
@@ -230,7 +233,7 @@ pub(crate) fn unit(byte: u8) -> I16F16 {
 }
 
 impl<A: AsVaryings<N>, const N: usize> VertexStage<A, N> for Mat4 {
-    #[inline]
+    #[inline(always)]
     fn vertex(&self, position: ModelPosition, attribute: &A) -> (ClipVertex, [I16F16; N]) {
         (self.transform(position), attribute.varyings())
     }

@@ -17,7 +17,7 @@ pub use angle::{Angle, SinCos};
 #[cfg(feature = "micromath")]
 pub use float::FloatError;
 
-use crate::math::{low, shr_round, unsigned};
+use crate::math::{low, shr_round, signed, unsigned};
 use crate::vertex::ClipVertex;
 use fixed::types::I16F16;
 
@@ -222,7 +222,7 @@ impl Mat4 {
     /// A position to clip space.
     ///
     /// Three products a coordinate, rounded once.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn transform(&self, position: ModelPosition) -> ClipVertex {
         self.narrow::<LONG_MULTIPLY>(position).unwrap_or_else(|| self.transform_wide(position))
@@ -231,44 +231,52 @@ impl Mat4 {
     /// [`transform`](Self::transform) where nothing leaves the range: sums of products in 64 bits if
     /// `LONG`, in 32 otherwise.
     ///
-    /// With `f` bits of fraction (for none, twice the position has one) and a row of at most `2^r`, in
-    /// 32 bits a coordinate is split at `s = min(30 - r, f - 1)` bits into `h 2^s + l`. Then `(a x + b y +
-    /// c z) / 2^f`, rounded, is `(H + floor(L / 2^s) + 2^(f - 1 - s)) / 2^(f - s)`, floored, where `H` and
-    /// `L` are the row's products with the high and the low parts:
+    /// With `f` bits of fraction and a row of at most `2^r`, in 32 bits a coordinate is split at `s =
+    /// min(30 - r, f - 1)` bits (0 where `f` is 0) into `h 2^s + l`. Then `(a x + b y + c z) / 2^f`,
+    /// rounded, is `(H + floor(L / 2^s) + 2^(f - 1 - s)) / 2^(f - s)`, floored, where `H` and `L` are the
+    /// row's products with the high and the low parts:
     ///
     /// | | at most | |
     /// | --- | --- | --- |
-    /// | `x` | `2^(30 - r + s)`, if `LONG` `2^(30 - r + f)` | tested |
+    /// | `x` | `2^(30 - r + s)` | tested |
     /// | `H` | `2^r 2^(30 - r) = 2^30` | |
     /// | `L` | `2^r 2^s`: 2^30 | |
     /// | `floor(L / 2^s) + 2^(f - 1 - s)` | below 2^30 | `2^(30 - s)` each where `s > 1`; 2^29 + 1 |
-    /// | the quotient | 2^30 | `f - s` is 1 or more |
+    /// | the quotient | 2^30 | `f - s` is 1 or more, or `H` is all |
     /// | with the translation | 2^31 - 1 | translations are below 2^30 |
+    ///
+    /// If `LONG`, entries are shifted left by `e = min(31 - r, 32 - f)` and coordinates by `32 - f - e`, so
+    /// that the quotient is the high word of the sum; in a loop the entries are shifted before it:
+    ///
+    /// | | at most | |
+    /// | --- | --- | --- |
+    /// | `x` | `2^(29 - r + f)` | tested |
+    /// | a row, shifted | below 2^31 | |
+    /// | `x`, shifted | `2^30`, or as it is | `29 - r + f + 32 - f - (31 - r)` |
+    /// | the sum | `2^61`, its high word 2^29 | `r + (29 - r + f) + (32 - f)` |
     #[inline(always)]
     fn narrow<const LONG: bool>(&self, position: ModelPosition) -> Option<ClipVertex> {
         if self.size == WIDE {
             return None;
         }
+        let fraction = position.fraction_bits.min(31);
         let spare = 30 - u32::from(self.size);
-        let (fraction, double) = match position.fraction_bits.min(31) {
-            0 => (1, 1),
-            fraction => (fraction, 0),
-        };
-        let split = spare.min(fraction - 1);
-        let room = if LONG { fraction } else { split };
+        let split = spare.min(fraction.saturating_sub(1));
+        let room = if LONG { (spare + fraction - 1).min(30) } else { spare + split };
         // At most 2^30 and a power of two, so only what is inside stays below twice as much.
-        let limit = 1 << ((spare + room).min(30) - double);
+        let limit = 1 << room;
         let [x, y, z] = position.raw.map(|v| unsigned(v.wrapping_add(limit)));
         if (x | y | z) >= unsigned(limit) << 1 {
             return None;
         }
-        let position = position.raw.map(|v| v << double);
+        let all = 32 - fraction;
+        let entries = all.min(spare + 1);
+        let shifted = position.raw.map(|v| v << (all - entries));
         let row = |[a, b, c, t]: [i32; 4]| {
-            let entries = [a, b, c];
-            t + if LONG {
-                quotient_long(entries, position, fraction)
+            if LONG {
+                quotient_long([a << entries, b << entries, c << entries], shifted, t)
             } else {
-                quotient_split(entries, position, fraction, split)
+                t + quotient_split([a, b, c], position.raw, fraction, split)
             }
         };
         // Four calls: an array's `map` of this length is not inlined.
@@ -304,22 +312,23 @@ impl Mat4 {
 /// 800.)
 const LONG_MULTIPLY: bool = cfg!(all(target_arch = "arm", target_has_atomic = "32"));
 
-/// `v . position / 2^fraction`, rounded: [`Mat4::narrow`] says why it fits.
+/// `t + v . position / 2^32`, rounded: [`Mat4::narrow`] says why it fits.
 #[inline(always)]
-fn quotient_long([a, b, c]: [i32; 3], [x, y, z]: [i32; 3], fraction: u32) -> i32 {
-    let half = 1i64 << (fraction - 1);
-    low((half + wide(a, x) + wide(b, y) + wide(c, z)) >> fraction)
+fn quotient_long([a, b, c]: [i32; 3], [x, y, z]: [i32; 3], t: i32) -> i32 {
+    let sum = (i64::from(t) << 32 | 1 << 31) + wide(a, x) + wide(b, y) + wide(c, z);
+    low(sum >> 32)
 }
 
-/// The same, from 32-bit products.
+/// `v . position / 2^fraction`, rounded, from 32-bit products.
 #[inline(always)]
 fn quotient_split(v: [i32; 3], position: [i32; 3], fraction: u32, split: u32) -> i32 {
     let [[a, b, c], [x, y, z]] = [v, position];
     let mask = (1 << split) - 1;
     let high = a * (x >> split) + b * (y >> split) + c * (z >> split);
     let low = a * (x & mask) + b * (y & mask) + c * (z & mask);
-    let half = 1 << (fraction - 1 - split);
-    (high + half + (low >> split)) >> (fraction - split)
+    // 0 where there is no fraction.
+    let half = ((1u32 << fraction) >> 1) >> split;
+    (high + signed(half) + (low >> split)) >> (fraction - split)
 }
 
 /// A product of two raw entries.
@@ -474,8 +483,8 @@ mod tests {
                 let [split, long] = [m.narrow::<false>(position), m.narrow::<true>(position)];
                 assert_eq!(split.unwrap_or(wide), wide, "{m:?} {position:?}");
                 assert_eq!(long.unwrap_or(wide), wide, "{m:?} {position:?}");
-                assert!(split.is_none() || long.is_some());
-                narrow[fraction_bits.min(31) as usize] += u32::from(split.is_some());
+                let both = split.is_some() && long.is_some();
+                narrow[fraction_bits.min(31) as usize] += u32::from(both);
             }
         }
         assert!([0, 1, 2, 8, 14, 16, 20, 30, 31].map(|f| narrow[f]).iter().all(|&n| n > 40_000));

@@ -56,11 +56,18 @@ impl ClipVertex {
     }
 
     /// Whether `w` is at least a raw distance of 1 to `2^31`.
+    #[inline]
+    pub(crate) fn reaches(&self, distance: i64) -> bool {
+        let [_, _, _, w] = self.raw;
+        if self.shift == 0 { i64::from(w) >= distance } else { self.reaches_shifted(distance) }
+    }
+
+    /// [`reaches`](Self::reaches) of any vertex.
     ///
     /// A shifted `w` of 1 or more is at least `2^shift`, so no more than 32 bits need be undone; `raw` is
     /// at most 2^30 where it was shifted.
-    #[inline]
-    pub(crate) fn reaches(&self, distance: i64) -> bool {
+    #[cold]
+    fn reaches_shifted(&self, distance: i64) -> bool {
         let [_, _, _, w] = self.raw;
         i64::from(w) << self.shift.min(32) >= distance
     }

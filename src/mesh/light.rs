@@ -1,7 +1,7 @@
 //! A vertex stage with one directional and an ambient light, in fixed point.
 
 use super::{VertexStage, unit};
-use crate::math::{low, shr_round};
+use crate::math::{low, shr_round, signed, unsigned};
 use crate::transform::{Mat4, MatrixError, ModelPosition, Vec3};
 use crate::vertex::ClipVertex;
 use fixed::types::I16F16;
@@ -67,19 +67,26 @@ impl Lit {
 }
 
 impl VertexStage<NormalColor, 3> for Lit {
-    #[inline]
+    #[inline(always)]
     fn vertex(
         &self,
         position: ModelPosition,
         attribute: &NormalColor,
     ) -> (ClipVertex, [I16F16; 3]) {
-        let brightness = i64::from(self.brightness(attribute.normal));
-        let color = attribute.color.map(|channel| {
-            let channel = i64::from(unit(channel).to_bits());
-            I16F16::from_bits(low(shr_round(channel * brightness, 16)))
-        });
+        let brightness = self.brightness(attribute.normal);
+        let color = attribute.color.map(|channel| lit(unit(channel), brightness));
         (self.transform.transform(position), color)
     }
+}
+
+/// A channel of `[0, 1]` at a brightness of `[0, 1]`, Q16, rounded to nearest.
+#[inline]
+fn lit(channel: I16F16, brightness: i32) -> I16F16 {
+    let (channel, brightness) = (unsigned(channel.to_bits()), unsigned(brightness));
+    // Full light would not fit: 2^16 2^16.
+    let full = brightness >> 16 != 0;
+    let part = (channel * (brightness & 0xffff) + (1 << 15)) >> 16;
+    I16F16::from_bits(signed(if full { channel } else { part }))
 }
 
 #[cfg(test)]
@@ -107,6 +114,17 @@ mod tests {
             let exact = (ambient + diffuse * facing.max(0.0)).min(1.0);
             let got = f64::from(lit.brightness(stored)) / 65536.0;
             assert!((got - exact).abs() < 1.0 / 128.0, "{stored:?}: {got}, not {exact}");
+        }
+    }
+
+    #[test]
+    fn lit_channels_are_rounded_to_nearest() {
+        for byte in 0..=255 {
+            let channel = unit(byte);
+            for brightness in (0..=65536).step_by(77).chain([1, 32767, 32768, 65535, 65536]) {
+                let exact = shr_round(i64::from(channel.to_bits()) * i64::from(brightness), 16);
+                assert_eq!(i64::from(lit(channel, brightness).to_bits()), exact);
+            }
         }
     }
 

@@ -38,7 +38,7 @@ pub struct ExactPosition {
 impl Snap for Exact {
     type Position = ExactPosition;
 
-    #[inline]
+    #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "the shift is -11 - 34 to 20")]
     #[expect(clippy::cast_sign_loss, reason = "columns and rows are 0 to 512")]
     fn snap(vertex: &ClipVertex, _hither: i64, viewport: &Viewport) -> ExactPosition {

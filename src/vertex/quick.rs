@@ -45,7 +45,7 @@ impl<const BITS: u32> Quick<BITS> {
 impl<const BITS: u32> Snap for Quick<BITS> {
     type Position = QuickPosition<BITS>;
 
-    #[inline]
+    #[inline(always)]
     fn snap(vertex: &ClipVertex, hither: i64, viewport: &Viewport) -> QuickPosition<BITS> {
         const { Self::CHECK }
         let [x, y, _, w] = vertex.raw;
