@@ -225,7 +225,16 @@ impl Mat4 {
     #[inline(always)]
     #[must_use]
     pub fn transform(&self, position: ModelPosition) -> ClipVertex {
-        self.narrow::<LONG_MULTIPLY>(position).unwrap_or_else(|| self.transform_wide(position))
+        match self.narrow::<LONG_MULTIPLY>(position) {
+            Some(vertex) => vertex,
+            None => {
+                // By fields, so that the usual path has all in registers.
+                let ModelPosition { raw: [x, y, z], fraction_bits } = position;
+                let ClipVertex { raw: [x, y, z, w], shift } =
+                    self.transform_wide(x, y, z, fraction_bits);
+                ClipVertex { raw: [x, y, z, w], shift }
+            }
+        }
     }
 
     /// [`transform`](Self::transform) where nothing leaves the range: sums of products in 64 bits if
@@ -286,9 +295,8 @@ impl Mat4 {
 
     /// [`transform`](Self::transform) of any position, in 64 bits.
     #[inline(never)]
-    fn transform_wide(&self, position: ModelPosition) -> ClipVertex {
-        let [x, y, z] = position.raw;
-        let fraction = position.fraction_bits.min(31);
+    fn transform_wide(&self, x: i32, y: i32, z: i32, fraction_bits: u32) -> ClipVertex {
+        let fraction = fraction_bits.min(31);
         ClipVertex::from_wide(self.rows.map(|[a, b, c, t]| {
             let sum = wide(a, x) + wide(b, y) + wide(c, z) + (i64::from(t) << fraction);
             shr_round(sum, fraction)
@@ -315,8 +323,9 @@ const LONG_MULTIPLY: bool = cfg!(all(target_arch = "arm", target_has_atomic = "3
 /// `t + v . position / 2^32`, rounded: [`Mat4::narrow`] says why it fits.
 #[inline(always)]
 fn quotient_long([a, b, c]: [i32; 3], [x, y, z]: [i32; 3], t: i32) -> i32 {
-    let sum = (i64::from(t) << 32 | 1 << 31) + wide(a, x) + wide(b, y) + wide(c, z);
-    low(sum >> 32)
+    let sum = (i64::from(t) << 32) + wide(a, x) + wide(b, y) + wide(c, z);
+    // Rounded by the top bit of the low word: one instruction.
+    low(sum >> 32) + signed(unsigned(low(sum)) >> 31)
 }
 
 /// `v . position / 2^fraction`, rounded, from 32-bit products.
@@ -479,7 +488,8 @@ mod tests {
             });
             for fraction_bits in [0, 1, 2, 8, 14, 16, 20, 30, 31, 99] {
                 let position = ModelPosition { raw, fraction_bits };
-                let wide = m.transform_wide(position);
+                let [x, y, z] = raw;
+                let wide = m.transform_wide(x, y, z, fraction_bits);
                 let [split, long] = [m.narrow::<false>(position), m.narrow::<true>(position)];
                 assert_eq!(split.unwrap_or(wide), wide, "{m:?} {position:?}");
                 assert_eq!(long.unwrap_or(wide), wide, "{m:?} {position:?}");

@@ -59,18 +59,18 @@ impl ClipVertex {
     #[inline]
     pub(crate) fn reaches(&self, distance: i64) -> bool {
         let [_, _, _, w] = self.raw;
-        if self.shift == 0 { i64::from(w) >= distance } else { self.reaches_shifted(distance) }
+        let shift = self.shift;
+        if shift == 0 { i64::from(w) >= distance } else { reaches_shifted(w, shift, distance) }
     }
+}
 
-    /// [`reaches`](Self::reaches) of any vertex.
-    ///
-    /// A shifted `w` of 1 or more is at least `2^shift`, so no more than 32 bits need be undone; `raw` is
-    /// at most 2^30 where it was shifted.
-    #[cold]
-    fn reaches_shifted(&self, distance: i64) -> bool {
-        let [_, _, _, w] = self.raw;
-        i64::from(w) << self.shift.min(32) >= distance
-    }
+/// [`ClipVertex::reaches`] of any vertex.
+///
+/// A shifted `w` of 1 or more is at least `2^shift`, so no more than 32 bits need be undone; `raw` is
+/// at most 2^30 where it was shifted.
+#[cold]
+fn reaches_shifted(w: i32, shift: u8, distance: i64) -> bool {
+    i64::from(w) << shift.min(32) >= distance
 }
 
 /// A snap of vertices to a grid: the part of a tier that looks at one vertex alone.
@@ -218,14 +218,14 @@ impl Outside {
         let rest = if small && within(x, 0) && within(y, 0) && within(z, 2) {
             0
         } else {
-            Self::beyond(vertex.raw)
+            Self::beyond(x, y, z, w)
         };
         Self(rest | u16::from(!vertex.reaches(hither)))
     }
 
     /// The outcodes but for `w`, of any coordinates: `-w` does not always fit, `!w` = `-w - 1` does.
     #[inline(never)]
-    fn beyond([x, y, z, w]: [i32; 4]) -> u16 {
+    fn beyond(x: i32, y: i32, z: i32, w: i32) -> u16 {
         let bit = |outside: bool, n: u16| u16::from(outside) << n;
         // |z| - 1, or -1 for 0; |z| > 4 w where this is at least 4 w.
         let depth = if z > 0 { z - 1 } else { !z };
@@ -233,12 +233,13 @@ impl Outside {
     }
 }
 
-/// By how much to shift so that the largest of `magnitudes` fits `limit_bits` bits: positive to the
-/// left, negative to the right. `2^limit_bits` itself fits.
+/// By how much to shift so that the largest magnitude of `values` fits `limit_bits` bits: positive to
+/// the left, negative to the right. `2^limit_bits` itself fits.
 #[inline]
-pub(crate) fn shift_to_fit(magnitudes: [u32; 3], limit_bits: u32) -> i32 {
-    let largest = magnitudes[0].max(magnitudes[1]).max(magnitudes[2]);
-    let length = 32 - largest.saturating_sub(1).leading_zeros();
+pub(crate) fn shift_to_fit([x, y, z]: [i32; 3], limit_bits: u32) -> i32 {
+    // The magnitude less 1, or 0 for 0. (One less again for -2^31, which has the same length.)
+    let below = |v: i32| unsigned(v ^ v >> 31) - (unsigned(v.wrapping_neg()) >> 31);
+    let length = 32 - (below(x) | below(y) | below(z)).leading_zeros();
     bits(limit_bits) - bits(length)
 }
 
@@ -316,7 +317,16 @@ mod tests {
         assert_eq!(shift_to_fit([1 << 20, 0, 0], 20), 0);
         assert_eq!(shift_to_fit([(1 << 20) + 1, 0, 0], 20), -1);
         assert_eq!(shift_to_fit([0, 1, 0], 20), 20);
-        assert_eq!(shift_to_fit([0, 0, 1 << 31], 20), -11);
+        assert_eq!(shift_to_fit([0, 0, i32::MIN], 20), -11);
         assert_eq!(shift_to_fit([0, 0, 0], 20), 20);
+        for v in (0..31).flat_map(|n| [-1, 0, 1].map(|d| (1i64 << n) + d)) {
+            let length = 64 - (v - 1).max(0).leading_zeros() as i32;
+            for v in [v, -v].map(|v| v as i32) {
+                for other in [0, v / 2, -v / 2, v, -v] {
+                    assert_eq!(shift_to_fit([v, other, 0], 14), 14 - length, "{v}");
+                    assert_eq!(shift_to_fit([other, 0, v], 14), 14 - length, "{v}");
+                }
+            }
+        }
     }
 }

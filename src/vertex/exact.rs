@@ -7,7 +7,7 @@
 //! the largest coordinate is always in `(2^19, 2^20]`, unless all are 0.
 
 use super::{ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, shift_round, shift_to_fit};
-use crate::math::{Scale, bits, normalized, reciprocal_estimate};
+use crate::math::{Scale, bits, normalized, reciprocal_estimate, unsigned};
 
 /// The exact tier: homogeneous snap, coverage equal to exact rational arithmetic for every input on
 /// the grid, slivers, `w <= 0` and external triangles included.
@@ -43,8 +43,7 @@ impl Snap for Exact {
     #[expect(clippy::cast_sign_loss, reason = "columns and rows are 0 to 512")]
     fn snap(vertex: &ClipVertex, _hither: i64, viewport: &Viewport) -> ExactPosition {
         let [x, y, _, w] = vertex.raw;
-        let largest = [x, y, w].map(i32::unsigned_abs);
-        let shift = shift_to_fit(largest, Self::COORDINATE_BITS);
+        let shift = shift_to_fit([x, y, w], Self::COORDINATE_BITS);
         let [x, y, w] = [x, y, w].map(|v| shift_round(v, shift));
         let [column, row] = first_pixel([x, y, w], viewport);
         let shift = (shift - i32::from(vertex.shift)) as i8;
@@ -62,7 +61,7 @@ pub(crate) fn first_pixel([x, y, w]: [i32; 3], viewport: &Viewport) -> [i32; 2] 
     if w == 0 {
         return [0, 0];
     }
-    let (divisor, zeros) = normalized(w.unsigned_abs());
+    let (divisor, zeros) = normalized(unsigned(w));
     let inverse = reciprocal_estimate(divisor);
     let first = |u: i32, side: i32| first_centre(u, w, [zeros, inverse], side);
     [first(x + w, viewport.width), first(w - y, viewport.height)]
@@ -85,7 +84,7 @@ fn first_centre(u: i32, w: i32, [zeros, inverse]: [u32; 2], side: i32) -> i32 {
         return side;
     }
     // u 2^zeros / 2 is below 2^32, since w 2^zeros is; zeros is 11 or more.
-    let ratio = ((u.unsigned_abs() << (zeros - 1)) >> 17) * inverse;
+    let ratio = ((unsigned(u) << (zeros - 1)) >> 17) * inverse;
     // Pixels in Q21: below 2^30 + 2^16.
     let estimate = bits(ratio >> 10) * side - (1 << 20) - (1 << 15);
     let first = (estimate + ((1 << 21) - 1)) >> 21;

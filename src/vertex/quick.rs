@@ -46,6 +46,7 @@ impl<const BITS: u32> Snap for Quick<BITS> {
     type Position = QuickPosition<BITS>;
 
     #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the exponent is that of a position")]
     fn snap(vertex: &ClipVertex, hither: i64, viewport: &Viewport) -> QuickPosition<BITS> {
         const { Self::CHECK }
         let [x, y, _, w] = vertex.raw;
@@ -57,7 +58,12 @@ impl<const BITS: u32> Snap for Quick<BITS> {
         if near && right <= width && down <= width && vertex.reaches(hither) {
             project_near(vertex, viewport)
         } else {
-            snap_any(vertex, hither, viewport)
+            // By fields, so that the usual path has all in registers.
+            let ClipVertex { raw: [x, y, z, w], shift } = *vertex;
+            let any = ClipVertex { raw: [x, y, z, w], shift };
+            let ([x, y, w], Scale { mantissa, exponent }, projected) =
+                snap_any::<BITS>(&any, hither, viewport);
+            QuickPosition { x, y, w, mantissa, exponent: exponent as i8, projected }
         }
     }
 }
@@ -75,7 +81,7 @@ const _: () = assert!(
 #[inline]
 fn project_near<const BITS: u32>(v: &ClipVertex, viewport: &Viewport) -> QuickPosition<BITS> {
     let [x, y, _, w] = v.raw;
-    let (divisor, zeros) = normalized(w.unsigned_abs());
+    let (divisor, zeros) = normalized(unsigned(w));
     let inverse = reciprocal(divisor);
     let quotient = |u: i32, side: i32| {
         // |u 2^zeros / 16| is at most a quarter of the divisor: below 2^30. zeros is 4 or more.
@@ -125,24 +131,26 @@ fn quotient_near<const BITS: u32>(u: i32, w: i32, ratio: i32, side: i32) -> i32 
     estimate + i32::from(remainder >= two_w)
 }
 
-/// Snaps any vertex. Not inlined: the rest is one path then, and short.
+/// Snaps any vertex: its point, its scale and whether it was projected. Not inlined: the rest is one
+/// path then, and short.
 #[inline(never)]
 fn snap_any<const BITS: u32>(
     vertex: &ClipVertex,
     hither: i64,
     viewport: &Viewport,
-) -> QuickPosition<BITS> {
+) -> ([i32; 3], Scale, bool) {
     let [x, y, _, w] = vertex.raw.map(i64::from);
     // Pixel space, times 2 w: 42 bits.
     let across = i64::from(viewport.width) * (x + w);
     let down = i64::from(viewport.height) * (w - y);
     let limit = 2 * GUARD_BAND * w;
     let inside = across.abs() <= limit && down.abs() <= limit;
-    if inside && w > 0 && vertex.reaches(hither) {
+    let p: QuickPosition<BITS> = if inside && w > 0 && vertex.reaches(hither) {
         project(vertex, across, down)
     } else {
         homogeneous(vertex)
-    }
+    };
+    ([p.x, p.y, p.w], p.scale().0, p.projected)
 }
 
 /// Projects a vertex: `w > 0`, `|across|` and `|down|` at most `2048 w`.
@@ -190,7 +198,7 @@ fn quotient<const BITS: u32>(n: i64, d: u32, inverse: u32) -> i32 {
 fn homogeneous<const BITS: u32>(v: &ClipVertex) -> QuickPosition<BITS> {
     let [x, y, _, w] = v.raw;
     let largest = [x, y, w].map(i32::unsigned_abs);
-    let mut shift = shift_to_fit(largest, HOMOGENEOUS_BITS);
+    let mut shift = shift_to_fit([x, y, w], HOMOGENEOUS_BITS);
     let limit = (1 << HOMOGENEOUS_BITS) - 1;
     let reaches = |shift: i32| largest.iter().any(|&v| rounded(v, shift) > limit);
     if reaches(shift) {
@@ -306,6 +314,10 @@ mod tests {
         assert!(projected > 10_000);
     }
 
+    fn fields<const BITS: u32>(p: &QuickPosition<BITS>) -> ([i32; 3], Scale, bool) {
+        ([p.x, p.y, p.w], p.scale().0, p.projected)
+    }
+
     /// Vertices around the screen are as any vertex is.
     fn near_is_as_any<const BITS: u32>() {
         let mut seed = 11u64;
@@ -341,7 +353,11 @@ mod tests {
             let (Ok(x), Ok(y)) = (i32::try_from(x), i32::try_from(-y)) else { continue };
             let vertex = ClipVertex { raw: [x, y, 0, w], shift: (i % 9) as u8 };
             let got = Quick::<BITS>::snap(&vertex, hither, &vp);
-            assert_eq!(got, snap_any(&vertex, hither, &vp), "{vertex:?} in {vp:?}");
+            assert_eq!(
+                fields(&got),
+                snap_any::<BITS>(&vertex, hither, &vp),
+                "{vertex:?} in {vp:?}"
+            );
             let inside = |u: i64| u.abs() <= 4 * i64::from(w);
             if inside(i64::from(x) + i64::from(w)) && inside(i64::from(w) - i64::from(y)) {
                 assert_eq!(got, project_near(&vertex, &vp), "{vertex:?} in {vp:?}");
@@ -368,7 +384,7 @@ mod tests {
             for (x, y) in all.clone().flat_map(|x| all.clone().map(move |y| (x, y))) {
                 let vertex = ClipVertex { raw: [x, y, 0, w], shift: 0 };
                 let got = Quick::<8>::snap(&vertex, 1, &vp);
-                assert_eq!(got, snap_any(&vertex, 1, &vp), "{vertex:?}");
+                assert_eq!(fields(&got), snap_any::<8>(&vertex, 1, &vp), "{vertex:?}");
             }
         }
     }
