@@ -1,7 +1,7 @@
 //! The boards' figures in their table.
 
 use super::cases::Passed;
-use crate::measure::readme::close;
+use crate::measure::readme::{Tolerance, close};
 
 /// A table with the figures of those that were measured: rows whose first cell starts with a board's name; and with the
 /// toolchain that made them.
@@ -33,7 +33,8 @@ pub fn compare(
     measured: &[(String, Passed)],
     toolchain: &str,
 ) -> Result<usize, String> {
-    let tolerance = if document.contains(toolchain) { 0.0 } else { 0.03 };
+    let tolerance =
+        if document.contains(toolchain) { Tolerance::NONE } else { Tolerance::OTHER_TOOLCHAIN };
     let mut compared = 0;
     let updated = updated(document, measured, toolchain);
     for (written, measured) in document.lines().zip(updated.lines()) {
