@@ -57,7 +57,7 @@ impl Mat4 {
     const LIMIT: i64 = 8192 << 16;
 
     /// From raw rows in range.
-    #[expect(clippy::cast_possible_truncation, reason = "15 to 32")]
+    #[expect(clippy::cast_possible_truncation, reason = "15 to 31")]
     const fn of(rows: [[i32; 4]; 4]) -> Self {
         let mut largest = 0;
         let mut moved = 0;
@@ -316,8 +316,7 @@ impl Mat4 {
 }
 
 /// Whether three multiplications with 64-bit sums are cheaper than six in 32 bits: where one
-/// instruction multiplies and adds 64 bits. (m4f: 80 instructions a position for 119; m0: 176 for
-/// 800.)
+/// instruction multiplies and adds 64 bits (m4f: 68 instructions a position for 119).
 const LONG_MULTIPLY: bool = cfg!(all(target_arch = "arm", target_has_atomic = "32"));
 
 /// `t + v . position / 2^32`, rounded: [`Mat4::narrow`] says why it fits.

@@ -182,7 +182,7 @@ fn projected<const BITS: u32>(
 ///
 /// `n` fits 44 bits; cut to 31 bits it is `2^-19` of a pixel off, the reciprocal at most 2^-11 of a
 /// subpixel: the estimate is off by one at most, and the exact remainder (52 bits) says so.
-#[inline]
+#[inline(never)]
 fn quotient<const BITS: u32>(n: i64, d: u32, inverse: u32) -> i32 {
     let estimate = ((n >> 12) * i64::from(inverse >> 1)) >> (63 - 12 - BITS);
     let two_d = 2 * i64::from(d);
