@@ -253,12 +253,11 @@ impl Weights {
         match self {
             Self::Each([u, v, w]) => {
                 let [x, y, z] = edges;
-                // Three terms of at most 2^59 (saturated, 2^61), in units of 2^-25.
                 let term = |&(factor, negative): &(Factor, bool), e: i64| {
-                    let product = factor.apply(e) >> 2;
+                    let product = shr_round(factor.apply(e), (61 - TERM_BITS).unsigned_abs());
                     if negative { -product } else { product }
                 };
-                (term(u, x) + term(v, y) + term(w, z)) >> (59 - TERM_BITS)
+                term(u, x) + term(v, y) + term(w, z)
             }
             Self::Sum(values, scale) => sum(values, *scale, edges),
         }
