@@ -1,5 +1,6 @@
 //! The front door: a frame that triangles and meshes are drawn into, and what became of each.
 
+mod flat;
 mod frame;
 mod shade;
 
@@ -169,6 +170,11 @@ where
         if let Some(outcome) = rejected::<W, N>(a & b & c) {
             return outcome;
         }
+        if F::UNIFORM && D::BITS == 0 && N == 0 && !self.cuts::<N>(a | b | c) {
+            if let Some(corners) = T::projected(vertices.map(|v| &v.position)) {
+                return self.fill_projected(&corners, fragment);
+            }
+        }
         let Some(setup) = T::set_up(vertices.map(|v| &v.position), &self.viewport) else {
             return Outcome::ZeroArea;
         };
@@ -189,7 +195,7 @@ where
             .map(|hither| Varyings::new::<T, I, P>(&setup, vertices, hither, outside));
         let depth = (D::BITS > 0).then(|| DepthPlane::new(&setup, vertices, D::BITS, outside));
         let shading = Shading { fragment, varyings: varyings.as_ref(), depth: depth.as_ref() };
-        let cut = (W::CLIPS || P > 0) && outside.0 & Outside::CLIPS != 0;
+        let cut = self.cuts::<N>(outside.0);
         let mut part = |setup: &Setup, bounds: Rect| {
             if cut {
                 self.draw_cut(setup, bounds, vertices, outside, &shading);
@@ -208,6 +214,15 @@ where
         } else {
             Outcome::Drawn
         }
+    }
+
+    /// Whether planes may cut a triangle of which some vertex is outside of each bound in `any`.
+    #[inline]
+    fn cuts<const N: usize>(&self, any: u16) -> bool
+    where
+        W: Interpolates<N>,
+    {
+        (W::CLIPS || P > 0) && any & Outside::CLIPS != 0
     }
 
     /// Draws a part that planes cut: not inlined, so that a triangle that is not cut has no stack for

@@ -3,6 +3,7 @@
 use crate::buffer::BufferSize;
 use crate::color::PixelFormat;
 use crate::math::index;
+use bytemuck::Pod;
 
 /// What spans are drawn into.
 ///
@@ -61,6 +62,22 @@ pub trait Target {
     #[inline]
     fn fill(&mut self, x: usize, y: usize, length: usize, color: Self::Color) {
         self.write(x, y, core::iter::repeat_n(Some(color), length));
+    }
+
+    /// Fills a run a row from row `y` down with one colour: columns `x0 .. x1`, none where `x0 >= x1`.
+    #[doc(hidden)]
+    #[inline]
+    fn fill_rows(
+        &mut self,
+        y: usize,
+        runs: impl Iterator<Item = (usize, usize)>,
+        color: Self::Color,
+    ) {
+        for (row, (x0, x1)) in runs.enumerate() {
+            if x0 < x1 {
+                self.fill(x0, y + row, x1 - x0, color);
+            }
+        }
     }
 
     /// Fills all of it with one colour.
@@ -161,13 +178,77 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
     #[inline]
     fn fill(&mut self, x: usize, y: usize, length: usize, color: F::Color) {
         if let Some(run) = self.from(x, y).get_mut(..length) {
-            run.fill(F::encode(color));
+            fill(run, F::encode(color));
+        }
+    }
+
+    #[inline]
+    fn fill_rows(&mut self, y: usize, runs: impl Iterator<Item = (usize, usize)>, color: F::Color) {
+        let word = F::encode(color);
+        let width = self.width as usize;
+        let mut below = self.from(0, y);
+        for (x0, x1) in runs {
+            let Some((row, rest)) = below.split_at_mut_checked(width) else {
+                return;
+            };
+            if let Some(run) = row.get_mut(x0..x1) {
+                fill(run, word);
+            }
+            below = rest;
         }
     }
 
     fn clear(&mut self, color: F::Color) {
         self.words.fill(F::encode(color));
     }
+}
+
+/// Fills a run of words, short ones without a loop.
+#[inline]
+fn fill<W: Pod>(run: &mut [W], word: W) {
+    match run {
+        [] => {}
+        [a] => *a = word,
+        [a, b] => (*a, *b) = (word, word),
+        [a, b, c] => (*a, *b, *c) = (word, word, word),
+        [a, b, c, d] => (*a, *b, *c, *d) = (word, word, word, word),
+        [a, b, c, d, e] => (*a, *b, *c, *d, *e) = (word, word, word, word, word),
+        [a, b, c, d, e, f] => {
+            (*a, *b, *c, *d, *e, *f) = (word, word, word, word, word, word);
+        }
+        [a, b, c, d, e, f, g] => {
+            (*a, *b, *c, *d, *e, *f, *g) = (word, word, word, word, word, word, word);
+        }
+        [a, b, c, d, e, f, g, h] => {
+            (*a, *b, *c, *d, *e, *f, *g, *h) = (word, word, word, word, word, word, word, word);
+        }
+        run => fill_long(run, word),
+    }
+}
+
+/// Fills a run by 32 bits at a time, where words of 8, 16 or 32 bits make those.
+#[inline(never)]
+fn fill_long<W: Pod>(run: &mut [W], word: W) {
+    let four = bytemuck::try_cast::<[W; 4], u32>([word; 4]);
+    let two = bytemuck::try_cast::<[W; 2], u32>([word; 2]);
+    let one = bytemuck::try_cast::<W, u32>(word);
+    let Ok(block) = four.or(two).or(one) else {
+        run.fill(word);
+        return;
+    };
+    let (head, body, tail) = bytemuck::pod_align_to_mut::<W, u32>(run);
+    head.iter_mut().for_each(|w| *w = word);
+    let mut blocks = body.chunks_exact_mut(8);
+    for eight in &mut blocks {
+        if let [a, b, c, d, e, f, g, h] = eight {
+            (*a, *b, *c, *d, *e, *f, *g, *h) =
+                (block, block, block, block, block, block, block, block);
+        }
+    }
+    for w in blocks.into_remainder() {
+        *w = block;
+    }
+    tail.iter_mut().for_each(|w| *w = word);
 }
 
 /// The run of `x0 .. x1` as an index and a length, for coordinates that the viewport has bounded.

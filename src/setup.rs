@@ -13,7 +13,10 @@
 //! linear combinations.
 
 mod exact;
+mod outline;
 mod quick;
+
+pub(crate) use outline::{Corner, Outline, doubled_area, shows};
 
 use crate::math::Scale;
 use crate::vertex::{Rect, Snap, Viewport};
@@ -26,6 +29,14 @@ pub trait Tier: Snap {
     /// Whether edge functions fit 32 bits where all three vertices are projected.
     #[doc(hidden)]
     const NARROW: bool;
+
+    /// Fraction bits of projected vertices.
+    #[doc(hidden)]
+    const SUBPIXEL_BITS: u32;
+
+    /// The corners in subpixels, y down, where all three vertices are projected.
+    #[doc(hidden)]
+    fn projected(vertices: [&Self::Position; 3]) -> Option<[[i32; 2]; 3]>;
 
     /// The determinant, adjugate and box of a triangle.
     #[doc(hidden)]

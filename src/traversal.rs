@@ -11,6 +11,10 @@
 //! edge on a pixel centre (`E = 0`) belongs to the triangle if it is a top or a left edge;
 //! subtracting 1 from any other beforehand makes all of them `E >= 0`.
 
+mod rows;
+
+pub(crate) use rows::Rows;
+
 use crate::clip::{ClipEdges, HalfPlane};
 use crate::math::low;
 use crate::setup::Setup;

@@ -36,6 +36,12 @@ fn extent(p: &ExactPosition, viewport: &Viewport) -> Extent {
 
 impl Tier for Exact {
     const NARROW: bool = false;
+    const SUBPIXEL_BITS: u32 = 0;
+
+    #[inline]
+    fn projected(_: [&ExactPosition; 3]) -> Option<[[i32; 2]; 3]> {
+        None
+    }
 
     #[inline(never)]
     fn set_up([p, q, r]: [&ExactPosition; 3], viewport: &Viewport) -> Option<Setup> {

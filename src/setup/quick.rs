@@ -23,6 +23,13 @@ use crate::vertex::{GUARD_BAND, HOMOGENEOUS_BITS, Quick, QuickPosition, Viewport
 
 impl<const BITS: u32> Tier for Quick<BITS> {
     const NARROW: bool = true;
+    const SUBPIXEL_BITS: u32 = BITS;
+
+    #[inline]
+    fn projected([p, q, r]: [&QuickPosition<BITS>; 3]) -> Option<[[i32; 2]; 3]> {
+        let all = p.projected && q.projected && r.projected;
+        all.then_some([[p.x, p.y], [q.x, q.y], [r.x, r.y]])
+    }
 
     #[inline(never)]
     fn set_up(vertices: [&QuickPosition<BITS>; 3], viewport: &Viewport) -> Option<Setup> {

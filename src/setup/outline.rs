@@ -1,0 +1,101 @@
+//! Setup of three projected vertices: what coverage alone needs, in 32 bits.
+//!
+//! Corners are in subpixels, at most `2^(10 + S)` from the viewport's corner, `S` 4 or 8. Their
+//! differences take 20 bits, the doubled area 38: it is the only value here of more than 32 bits.
+//! No edge function is made, no box is needed but to clip, and nothing is divided.
+
+use super::{Cull, Facing};
+use crate::vertex::Rect;
+use core::mem::swap;
+
+/// A corner on the subpixel grid, and the first row whose centre is not above it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Corner {
+    pub(crate) x: i32,
+    pub(crate) y: i32,
+    pub(crate) row: i32,
+}
+
+/// The corners of a projected triangle from the top down, by rows: those of one row in any order, since
+/// there is no pixel centre between.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outline {
+    pub(crate) corners: [Corner; 3],
+    /// The middle corner is right of the line between the other two.
+    pub(crate) turns_right: bool,
+}
+
+/// The doubled area of the triangle `p q r` in square subpixels, positive where it is clockwise on the
+/// screen.
+///
+/// Differences of less than `2^15` make an area below `2^31`.
+#[inline]
+pub(crate) fn doubled_area([p, q, r]: &[[i32; 2]; 3]) -> i64 {
+    let (ax, ay, bx, by) = (q[0] - p[0], q[1] - p[1], r[0] - p[0], r[1] - p[1]);
+    if cfg!(all(target_arch = "arm", not(target_has_atomic = "32"))) {
+        // A 64-bit product is a call of 37 instructions there.
+        let short = |v: i32| (v + (1 << 15)) & !0xffff;
+        if short(ax) | short(ay) | short(bx) | short(by) == 0 {
+            return i64::from(ax * by - ay * bx);
+        }
+    }
+    i64::from(ax) * i64::from(by) - i64::from(ay) * i64::from(bx)
+}
+
+/// Which way a projected triangle of some doubled area faces; `None` where it has none.
+#[inline]
+pub(crate) fn facing(doubled_area: i64) -> Option<Facing> {
+    // y is down: a front face is counter-clockwise, which is negative here.
+    match doubled_area {
+        0 => None,
+        ..0 => Some(Facing::Front),
+        _ => Some(Facing::Back),
+    }
+}
+
+/// The first column or row whose centre is at or beyond a coordinate.
+#[inline]
+pub(crate) const fn first_centre(v: i32, bits: u32) -> i32 {
+    (v + ((1 << bits) / 2 - 1)) >> bits
+}
+
+impl Outline {
+    /// From corners in subpixels of `bits` bits, and the sign of their doubled area.
+    #[inline]
+    pub(crate) fn new(points: &[[i32; 2]; 3], clockwise: bool, bits: u32) -> Self {
+        let corner = |[x, y]: [i32; 2]| Corner { x, y, row: first_centre(y, bits) };
+        let [mut top, mut middle, mut bottom] = points.map(corner);
+        let mut turns_right = clockwise;
+        if middle.row < top.row {
+            swap(&mut top, &mut middle);
+            turns_right = !turns_right;
+        }
+        if bottom.row < middle.row {
+            swap(&mut middle, &mut bottom);
+            turns_right = !turns_right;
+            if middle.row < top.row {
+                swap(&mut top, &mut middle);
+                turns_right = !turns_right;
+            }
+        }
+        Self { corners: [top, middle, bottom], turns_right }
+    }
+
+    /// The box of the pixel centres it may cover.
+    #[inline]
+    pub(crate) fn bounds(&self, bits: u32) -> Rect {
+        let [p, q, r] = &self.corners;
+        Rect {
+            x0: first_centre(p.x.min(q.x).min(r.x), bits),
+            y0: p.row,
+            x1: first_centre(p.x.max(q.x).max(r.x), bits),
+            y1: r.row,
+        }
+    }
+}
+
+/// Whether a facing is left out, or there is none: the outcome is [`Cull`]'s to name.
+#[inline]
+pub(crate) fn shows(doubled_area: i64, cull: Cull) -> Option<bool> {
+    facing(doubled_area).map(|facing| !cull.hides(facing))
+}
