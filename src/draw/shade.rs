@@ -141,8 +141,9 @@ where
         }
     }
 
-    /// The pixel loop: test, shade what passes, write.
-    #[inline]
+    /// The pixel loop: test, shade what passes, write. Not inlined, so that what leads to it shares no
+    /// stack with it.
+    #[inline(never)]
     fn draw_run<F, R, const N: usize>(
         &mut self,
         block: Span,
