@@ -182,7 +182,7 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn fill_rows(&mut self, y: usize, runs: impl Iterator<Item = (usize, usize)>, color: F::Color) {
         let word = F::encode(color);
         let width = self.width as usize;
@@ -206,6 +206,16 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
 /// Fills a run of words, short ones without a loop.
 #[inline]
 fn fill<W: Pod>(run: &mut [W], word: W) {
+    if run.len() > 8 {
+        fill_long(run, word);
+    } else {
+        fill_short(run, word);
+    }
+}
+
+/// Fills a run of up to 8 words.
+#[inline]
+fn fill_short<W: Copy>(run: &mut [W], word: W) {
     match run {
         [] => {}
         [a] => *a = word,
@@ -222,7 +232,7 @@ fn fill<W: Pod>(run: &mut [W], word: W) {
         [a, b, c, d, e, f, g, h] => {
             (*a, *b, *c, *d, *e, *f, *g, *h) = (word, word, word, word, word, word, word, word);
         }
-        run => fill_long(run, word),
+        _ => {}
     }
 }
 
@@ -241,13 +251,13 @@ fn fill_long<W: Pod>(run: &mut [W], word: W) {
     let mut blocks = body.chunks_exact_mut(8);
     for eight in &mut blocks {
         if let [a, b, c, d, e, f, g, h] = eight {
-            (*a, *b, *c, *d, *e, *f, *g, *h) =
-                (block, block, block, block, block, block, block, block);
+            (*a, *b, *c, *d) = (block, block, block, block);
+            (*e, *f, *g, *h) = (block, block, block, block);
         }
+        // Nothing; but with it the loop is not unrolled, which costs more before and after it.
+        core::hint::black_box(());
     }
-    for w in blocks.into_remainder() {
-        *w = block;
-    }
+    fill_short(blocks.into_remainder(), block);
     tail.iter_mut().for_each(|w| *w = word);
 }
 

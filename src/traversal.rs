@@ -13,7 +13,7 @@
 
 mod rows;
 
-pub(crate) use rows::Rows;
+pub(crate) use rows::{Half, halves};
 
 use crate::clip::{ClipEdges, HalfPlane};
 use crate::math::low;

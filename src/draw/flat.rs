@@ -5,8 +5,7 @@ use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
 use crate::math::index;
 use crate::setup::{Outline, Tier, doubled_area, shows};
-use crate::traversal::Rows;
-use crate::vertex::Rect;
+use crate::traversal::{Half, halves};
 use fixed::types::I16F16;
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
@@ -40,27 +39,36 @@ where
         }
         let sample = Sample { x: bounds.x0, y: bounds.y0, varyings: [I16F16::ZERO; N] };
         let color = fragment.shade(sample);
-        if bounds == whole {
-            let (left, top) = self.viewport.origin;
-            let rows = Rows::new(&outline, bounds, T::SUBPIXEL_BITS);
-            let runs = rows.map(|(x0, x1)| (index_of(x0 + left), index_of(x1 + left)));
-            self.target.fill_rows(index(bounds.y0 + top), runs, color);
-        } else {
-            self.fill_clipped(&outline, bounds, color);
-        }
+        let (left, top) = self.viewport.origin;
+        let inside = bounds == whole;
+        halves(&outline, bounds, left, T::SUBPIXEL_BITS, |y, half| {
+            let y = index(y + top);
+            if inside {
+                self.fill_half(y, half, color);
+            } else {
+                self.fill_clipped(y, half, [bounds.x0 + left, bounds.x1 + left], color);
+            }
+        });
         Outcome::Drawn
     }
 
-    /// Fills what a box shows of a triangle.
+    /// Fills rows of which all columns are inside of the target. The half is copied, so that it is kept
+    /// in registers.
     #[inline(never)]
-    fn fill_clipped(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
-        let (left, top) = self.viewport.origin;
-        let rows = Rows::new(outline, bounds, T::SUBPIXEL_BITS);
-        let runs = rows.map(|(x0, x1)| {
-            let x0 = x0.max(bounds.x0);
-            (index_of(x0 + left), index_of(x1.min(bounds.x1).max(x0) + left))
+    fn fill_half(&mut self, y: usize, half: &mut Half, color: C::Color) {
+        let mut own = *half;
+        self.target.fill_rows(y, own.by_ref().map(|(x0, x1)| (column(x0), column(x1))), color);
+        *half = own;
+    }
+
+    /// Fills what columns `x0 .. x1` of the target show of rows.
+    #[inline(never)]
+    fn fill_clipped(&mut self, y: usize, half: &mut Half, [x0, x1]: [i32; 2], color: C::Color) {
+        let runs = half.by_ref().map(|(from, to)| {
+            let from = from.max(x0);
+            (column(from), column(to.min(x1).max(from)))
         });
-        self.target.fill_rows(index(bounds.y0 + top), runs, color);
+        self.target.fill_rows(y, runs, color);
     }
 }
 
@@ -68,6 +76,6 @@ where
 /// row has.
 #[inline]
 #[expect(clippy::cast_sign_loss, reason = "positive, or beyond every row's end by intent")]
-const fn index_of(v: i32) -> usize {
+const fn column(v: i32) -> usize {
     v as usize
 }
