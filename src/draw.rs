@@ -170,7 +170,8 @@ where
         if let Some(outcome) = rejected::<W, N>(a & b & c) {
             return outcome;
         }
-        if F::UNIFORM && D::BITS == 0 && N == 0 && !self.cuts::<N>(a | b | c) {
+        let cut = self.cuts::<N>(a | b | c);
+        if F::UNIFORM && D::BITS == 0 && N == 0 && !cut {
             if let Some(corners) = T::projected(vertices.map(|v| &v.position)) {
                 return self.fill_projected(&corners, fragment);
             }
@@ -195,10 +196,11 @@ where
             .map(|hither| Varyings::new::<T, I, P>(&setup, vertices, hither, outside));
         let depth = (D::BITS > 0).then(|| DepthPlane::new(&setup, vertices, D::BITS, outside));
         let shading = Shading { fragment, varyings: varyings.as_ref(), depth: depth.as_ref() };
-        let cut = self.cuts::<N>(outside.0);
         let mut part = |setup: &Setup, bounds: Rect| {
             if cut {
                 self.draw_cut(setup, bounds, vertices, outside, &shading);
+            } else if let Some(corners) = T::projected(vertices.map(|v| &v.position)) {
+                self.draw_rows(setup, &corners, bounds, &shading);
             } else {
                 self.draw_part(setup, bounds, None, &shading);
             }

@@ -265,7 +265,7 @@ impl<const N: usize> Varyings<N> {
     ) -> Self {
         let crosses = outside.0 & Outside::HITHER != 0;
         let linear = (C::AFFINE && !crosses) || same_w(vertices);
-        if setup.narrow && (linear || (C::EVERY > 1 && !crosses)) {
+        if setup.projected && (linear || (C::EVERY > 1 && !crosses)) {
             if let Some(planes) = Planes::new(setup, vertices, linear) {
                 return Self::Planes(planes);
             }

@@ -26,10 +26,6 @@ use crate::vertex::{Rect, Snap, Viewport};
 /// A type parameter, so that all of them fit one binary: [`Exact`](crate::Exact),
 /// [`Quick<4>`](crate::Quick) and [`Quick<8>`](crate::Quick).
 pub trait Tier: Snap {
-    /// Whether edge functions fit 32 bits where all three vertices are projected.
-    #[doc(hidden)]
-    const NARROW: bool;
-
     /// Fraction bits of projected vertices.
     #[doc(hidden)]
     const SUBPIXEL_BITS: u32;
@@ -91,8 +87,8 @@ pub struct Setup {
     /// `E` at the centre of pixel (0, 0).
     pub(crate) c: [i64; 3],
     pub(crate) step: u32,
-    /// All three vertices are projected: `E >> step` fits `i32` over any viewport.
-    pub(crate) narrow: bool,
+    /// All three vertices are projected.
+    pub(crate) projected: bool,
     pub(crate) facing: Facing,
     /// `1 / w` at a pixel is the sum of `k_i E_i` times this, with `k_i` the vertices' scales.
     pub(crate) inverse: Scale,

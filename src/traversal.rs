@@ -16,7 +16,6 @@ mod rows;
 pub(crate) use rows::{Half, halves};
 
 use crate::clip::{ClipEdges, HalfPlane};
-use crate::math::low;
 use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::Rect;
@@ -36,7 +35,6 @@ pub(crate) trait EdgeInt:
 {
 }
 
-impl EdgeInt for i32 {}
 impl EdgeInt for i64 {}
 impl EdgeInt for i128 {}
 
@@ -171,39 +169,19 @@ impl<const P: usize> ClipWalk<P> {
     }
 }
 
-/// The edges of a triangle, at the width it needs.
-#[derive(Clone, Copy, Debug)]
-enum Edges {
-    Narrow(Walk<i32>),
-    Wide(Walk<i64>),
-}
-
-/// The spans of a triangle inside a box, from the top.
+/// The spans of a triangle inside a box, from the top: of any triangle, cut or not.
 #[derive(Debug)]
 pub(crate) struct Spans<'a, const P: usize> {
-    edges: Edges,
+    edges: Walk<i64>,
     /// Lent: it is large, and few triangles are cut.
     clip: Option<&'a mut ClipWalk<P>>,
 }
 
 impl<'a, const P: usize> Spans<'a, P> {
     /// Spans of `setup` (already mirrored for the part behind) in `bounds`, cut by `clip`.
-    /// `narrow` says whether the tier has narrow triangles at all.
     #[inline]
-    pub(crate) fn new(
-        setup: &Setup,
-        bounds: Rect,
-        clip: Option<&'a mut ClipWalk<P>>,
-        narrow: bool,
-    ) -> Self {
-        let edges = [0, 1, 2].map(|i| biased(setup, i));
-        let edges = if narrow && setup.narrow {
-            let narrow = |e: HalfPlane<i64>| HalfPlane { a: low(e.a), b: low(e.b), c: low(e.c) };
-            Edges::Narrow(Walk::new(edges.map(narrow), bounds))
-        } else {
-            Edges::Wide(Walk::new(edges, bounds))
-        };
-        Self { edges, clip }
+    pub(crate) fn new(setup: &Setup, bounds: Rect, clip: Option<&'a mut ClipWalk<P>>) -> Self {
+        Self { edges: Walk::new([0, 1, 2].map(|i| biased(setup, i)), bounds), clip }
     }
 }
 
@@ -224,10 +202,7 @@ impl<const P: usize> Iterator for Spans<'_, P> {
     #[inline]
     fn next(&mut self) -> Option<Span> {
         loop {
-            let span = match &mut self.edges {
-                Edges::Narrow(walk) => walk.next(),
-                Edges::Wide(walk) => walk.next(),
-            }?;
+            let span = self.edges.next()?;
             match &mut self.clip {
                 None => return Some(span),
                 Some(clip) => {

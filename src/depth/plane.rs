@@ -135,7 +135,7 @@ impl Gradient {
         vertices: [&Vertex<T, N, P>; 3],
         word_bits: u32,
     ) -> Option<Self> {
-        if !setup.narrow || word_bits > 16 {
+        if !setup.projected || word_bits > 16 {
             return None;
         }
         let [d0, d1, d2] = vertices.map(|v| projected_depth(v, word_bits));

@@ -5,9 +5,9 @@ use crate::depth::{DepthPlane, DepthRun, DepthTest};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::{Target, run};
 use crate::interpolation::{BLOCK, Correction, Joint, Mode, Run, Varyings};
-use crate::setup::{Setup, Tier};
+use crate::setup::{Facing, Outline, Setup, Tier};
 use crate::span::Span;
-use crate::traversal::{ClipWalk, Spans};
+use crate::traversal::{ClipWalk, Spans, halves};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
@@ -46,21 +46,56 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
+        for span in Spans::new(setup, bounds, clip) {
+            self.draw_span(setup, span, shading);
+        }
+    }
+
+    /// Draws what a box shows of a projected triangle that no plane cuts.
+    #[inline(never)]
+    pub(super) fn draw_rows<F, const N: usize>(
+        &mut self,
+        setup: &Setup,
+        corners: &[[i32; 2]; 3],
+        bounds: Rect,
+        shading: &Shading<'_, F, N>,
+    ) where
+        F: Fragment<C::Color, N>,
+    {
+        let outline = Outline::new(corners, setup.facing == Facing::Back, T::SUBPIXEL_BITS);
+        halves(&outline, bounds, 0, T::SUBPIXEL_BITS, |first, half| {
+            for (y, (x0, x1)) in (first..).zip(half) {
+                let span = Span { y, x0: x0.max(bounds.x0), x1: x1.min(bounds.x1) };
+                if span.x0 < span.x1 {
+                    self.draw_span(setup, span, shading);
+                }
+            }
+        });
+    }
+
+    /// Draws a span.
+    #[inline]
+    fn draw_span<F, const N: usize>(
+        &mut self,
+        setup: &Setup,
+        span: Span,
+        shading: &Shading<'_, F, N>,
+    ) where
+        F: Fragment<C::Color, N>,
+    {
+        if F::UNIFORM && shading.depth.is_none() && N == 0 {
+            self.fill(span, shading);
+            return;
+        }
         let length = match shading.varyings {
             Some(varyings) if varyings.mode() == Mode::Pieces => I::EVERY,
             Some(varyings) if varyings.mode() == Mode::Divided => BLOCK,
             _ => i32::MAX,
         };
-        for span in Spans::new(setup, bounds, clip, T::NARROW) {
-            if F::UNIFORM && shading.depth.is_none() && N == 0 {
-                self.fill(span, shading);
-            } else {
-                let mut joint = None;
-                for block in span.blocks(length) {
-                    let more = block.x1 < span.x1;
-                    self.draw_block(setup, block, more, &mut joint, shading);
-                }
-            }
+        let mut joint = None;
+        for block in span.blocks(length) {
+            let more = block.x1 < span.x1;
+            self.draw_block(setup, block, more, &mut joint, shading);
         }
     }
 

@@ -128,7 +128,7 @@ impl<const N: usize> Numerators<N> {
         scale: [Scale; 3],
         each: &[Varying; N],
     ) -> Option<Self> {
-        if !setup.narrow {
+        if !setup.projected {
             return None;
         }
         let back = back_from(vertex)?;

@@ -35,7 +35,6 @@ fn extent(p: &ExactPosition, viewport: &Viewport) -> Extent {
 }
 
 impl Tier for Exact {
-    const NARROW: bool = false;
     const SUBPIXEL_BITS: u32 = 0;
 
     #[inline]
@@ -65,7 +64,7 @@ impl Tier for Exact {
             b: column(1),
             c: column(2),
             step: 1,
-            narrow: false,
+            projected: false,
             facing,
             // sum(E_i w_i) = W H det.
             inverse: Scale::of(determinant.unsigned_abs())

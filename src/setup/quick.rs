@@ -17,12 +17,12 @@
 //! x 3 matrix of entries in [-1, 1] has one of at most 4), so in pixel space it is below
 //! `2^19 2^44 = 2^63`. Its partial sums may pass `i64`, so they wrap; the total does not.
 
-use super::{Extent, Facing, Setup, Tier, bounds};
-use crate::math::Scale;
-use crate::vertex::{GUARD_BAND, HOMOGENEOUS_BITS, Quick, QuickPosition, Viewport};
+use super::outline::facing;
+use super::{Extent, Facing, Outline, Setup, Tier, bounds, doubled_area};
+use crate::math::{Scale, bits};
+use crate::vertex::{GUARD_BAND, HOMOGENEOUS_BITS, Quick, QuickPosition, Rect, Viewport};
 
 impl<const BITS: u32> Tier for Quick<BITS> {
-    const NARROW: bool = true;
     const SUBPIXEL_BITS: u32 = BITS;
 
     #[inline]
@@ -33,65 +33,85 @@ impl<const BITS: u32> Tier for Quick<BITS> {
 
     #[inline(never)]
     fn set_up(vertices: [&QuickPosition<BITS>; 3], viewport: &Viewport) -> Option<Setup> {
-        let points = vertices.map(|v| v.in_pixels(viewport));
-        let narrow = vertices.iter().all(|v| v.projected);
-        let lines = if narrow { projected::<BITS>(&points) } else { mixed(&points) };
-        if lines.determinant == 0 {
-            return None;
+        match Self::projected(vertices) {
+            Some(corners) => projected::<BITS>(&corners),
+            None => mixed_setup(vertices, viewport),
         }
-        // y is down: a front face is clockwise here.
-        let facing = if lines.determinant < 0 { Facing::Front } else { Facing::Back };
-        let sign = lines.determinant.signum();
-        let column = |i: usize| lines.edges.map(|e| sign * e.get(i).copied().unwrap_or(0));
-        let magnitude = Scale::of(lines.determinant.unsigned_abs());
-        let extents = [0, 1, 2].map(|i: usize| {
-            let zero = Extent { point: [0; 3], first: [0; 2] };
-            points
-                .get(i)
-                .zip(vertices.get(i))
-                .map_or(zero, |(&point, v)| Extent { point, first: v.first_pixel(viewport) })
-        });
-        Some(Setup {
-            a: column(0),
-            b: column(1),
-            c: column(2),
-            step: lines.step,
-            narrow,
-            facing,
-            inverse: magnitude.reciprocal().times(Scale::power_of_two(lines.weight_shift)),
-            bounds: bounds(&extents, viewport),
-        })
     }
+}
+
+/// Three projected vertices: edges in square subpixels, the determinant their sum, which is twice the signed
+/// area.
+#[inline]
+fn projected<const BITS: u32>(corners: &[[i32; 2]; 3]) -> Option<Setup> {
+    let area = doubled_area(corners);
+    let facing = facing(area)?;
+    let [p, q, r] = corners;
+    let clockwise = facing == Facing::Back;
+    let half = 1 << (BITS - 1);
+    let edge = |p: &[i32; 2], q: &[i32; 2]| {
+        let (a, b) = (p[1] - q[1], q[0] - p[0]);
+        let (a, b) = if clockwise { (a, b) } else { (-a, -b) };
+        // 0 at `p`, which is at most 2^(10 + S) + 2^S away from the centre of pixel (0, 0).
+        let at_origin =
+            i64::from(a) * i64::from(half - p[0]) + i64::from(b) * i64::from(half - p[1]);
+        (i64::from(a), i64::from(b), at_origin)
+    };
+    let ((a0, b0, c0), (a1, b1, c1), (a2, b2, c2)) = (edge(q, r), edge(r, p), edge(p, q));
+    // sum(k_i E_i) with k = 2^(S - 1) / w is 2^(S - 1) / w times the doubled area.
+    let magnitude = Scale::of(area.unsigned_abs()).reciprocal();
+    let front = Outline::new(corners, clockwise, BITS).bounds(BITS);
+    Some(Setup {
+        a: [a0, a1, a2],
+        b: [b0, b1, b2],
+        c: [c0, c1, c2],
+        step: BITS,
+        projected: true,
+        facing,
+        inverse: Scale { exponent: magnitude.exponent + 1 - bits(BITS), ..magnitude },
+        bounds: [front, Rect { x0: 0, y0: 0, x1: 0, y1: 0 }],
+    })
+}
+
+/// Any three vertices: pixel space, in 64 bits.
+#[inline(never)]
+fn mixed_setup<const BITS: u32>(
+    vertices: [&QuickPosition<BITS>; 3],
+    viewport: &Viewport,
+) -> Option<Setup> {
+    let points = vertices.map(|v| v.in_pixels(viewport));
+    let lines = mixed(&points);
+    if lines.determinant == 0 {
+        return None;
+    }
+    // y is down: a front face is clockwise here.
+    let facing = if lines.determinant < 0 { Facing::Front } else { Facing::Back };
+    let sign = lines.determinant.signum();
+    let column = |i: usize| lines.edges.map(|e| sign * e.get(i).copied().unwrap_or(0));
+    let extents = [0, 1, 2].map(|i: usize| {
+        let zero = Extent { point: [0; 3], first: [0; 2] };
+        points
+            .get(i)
+            .zip(vertices.get(i))
+            .map_or(zero, |(&point, v)| Extent { point, first: v.first_pixel(viewport) })
+    });
+    Some(Setup {
+        a: column(0),
+        b: column(1),
+        c: column(2),
+        step: 1,
+        projected: false,
+        facing,
+        inverse: Scale::of(lines.determinant.unsigned_abs()).reciprocal(),
+        bounds: bounds(&extents, viewport),
+    })
 }
 
 /// Edge functions before they are oriented.
 struct Lines {
     /// `[a, b, c]` each, as in [`Setup`].
     edges: [[i64; 3]; 3],
-    step: u32,
     determinant: i64,
-    /// `1 / w = sum(k_i E_i) 2^weight_shift / |determinant|`.
-    weight_shift: i32,
-}
-
-/// Three points in subpixels: edges in square subpixels, the determinant their sum, which is twice
-/// the signed area.
-#[inline]
-fn projected<const BITS: u32>([p, q, r]: &[[i64; 3]; 3]) -> Lines {
-    let half = 1 << (BITS - 1);
-    let edge = |p: &[i64; 3], q: &[i64; 3]| {
-        let (a, b) = (p[1] - q[1], q[0] - p[0]);
-        [a, b, p[0] * q[1] - p[1] * q[0] + (a + b) * half]
-    };
-    let edges = [edge(q, r), edge(r, p), edge(p, q)];
-    let [[_, _, c0], [_, _, c1], [_, _, c2]] = edges;
-    // sum(k_i E_i) with k = 2^(S - 1) / w is 2^(S - 1) / w times the doubled area.
-    Lines {
-        edges,
-        step: BITS,
-        determinant: c0 + c1 + c2,
-        weight_shift: 1 - crate::math::bits(BITS),
-    }
 }
 
 /// Any three points of pixel space: edges in half pixels.
@@ -107,7 +127,7 @@ fn mixed([p, q, r]: &[[i64; 3]; 3]) -> Lines {
     // Partial sums may wrap; the total is below 2^63, as the module says.
     let determinant =
         p[0].wrapping_mul(a).wrapping_add(p[1].wrapping_mul(b)).wrapping_add(p[2].wrapping_mul(c));
-    Lines { edges: lines.map(|[a, b, c, _]| [a, b, c]), step: 1, determinant, weight_shift: 0 }
+    Lines { edges: lines.map(|[a, b, c, _]| [a, b, c]), determinant }
 }
 
 const _: () = {
@@ -133,15 +153,16 @@ mod tests {
         let viewport = Viewport::new(240, 320).unwrap();
         let v = snap::<4>([[-900, 310, 1000], [2000, 1500, 2700], [-77, -3000, 4000]], &viewport);
         let points = [0, 1, 2].map(|i: usize| v[i].in_pixels(&viewport));
-        let (narrow, wide) = (projected::<4>(&points), mixed(&points));
-        for (n, w) in narrow.edges.iter().zip(&wide.edges) {
-            for (x, y) in [(0, 0), (17, 200), (239, 319)] {
-                let at = |e: &[i64; 3], step: u32| ((e[0] * x + e[1] * y) << step) + e[2];
-                // In half pixels and times the pixel's 16 subpixels' w: 2.
-                assert_eq!(2 * at(n, 4), at(w, 1));
-            }
+        let corners = Quick::projected([&v[0], &v[1], &v[2]]).unwrap();
+        let (narrow, wide) = (projected::<4>(&corners).unwrap(), mixed(&points));
+        for (x, y) in [(0, 0), (17, 200), (239, 319)] {
+            let at = |e: &[i64; 3]| 2 * (e[0] * i64::from(x) + e[1] * i64::from(y)) + e[2];
+            // In half pixels and times the pixel's 16 subpixels' w: 2.
+            let sign = wide.determinant.signum();
+            assert_eq!(narrow.edges_at(x, y).map(|e| 2 * e), wide.edges.map(|e| sign * at(&e)));
         }
-        assert_eq!(16 * narrow.determinant, wide.determinant);
+        assert_eq!(16 * doubled_area(&corners), wide.determinant);
+        assert_eq!(narrow.facing, facing(wide.determinant).unwrap());
     }
 
     #[test]
