@@ -12,7 +12,7 @@ use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates, Varyings};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
-use crate::setup::{Part, Setup, Tier};
+use crate::setup::{Part, Setup, Tier, doubled_area, shows};
 use crate::traversal::ClipWalk;
 use crate::vertex::{ClipVertex, Distance, Outside, Rect, Vertex};
 use core::slice::from_mut;
@@ -171,12 +171,21 @@ where
             return outcome;
         }
         let cut = self.cuts::<N>(a | b | c);
-        if F::UNIFORM && D::BITS == 0 && N == 0 && !cut {
-            if let Some(corners) = T::projected(vertices.map(|v| &v.position)) {
-                return self.fill_projected(&corners, fragment);
+        if let Some(corners) = T::projected(vertices.map(|v| &v.position)) {
+            // Before anything is made of them: half of a mesh's triangles look away.
+            let area = doubled_area(&corners);
+            match shows(area, self.cull) {
+                None => return Outcome::ZeroArea,
+                Some(false) => return Outcome::Culled,
+                Some(true) => {}
+            }
+            if F::UNIFORM && D::BITS == 0 && N == 0 && !cut {
+                return self.fill_projected(&corners, area > 0, fragment);
             }
         }
-        let Some(setup) = T::set_up(vertices.map(|v| &v.position), &self.viewport) else {
+        // By reference: it is large.
+        let setup = T::set_up(vertices.map(|v| &v.position), &self.viewport);
+        let Some(setup) = &setup else {
             return Outcome::ZeroArea;
         };
         if self.cull.hides(setup.facing) {
@@ -193,8 +202,8 @@ where
         let varyings = self
             .hither()
             .filter(|_| N > 0)
-            .map(|hither| Varyings::new::<T, I, P>(&setup, vertices, hither, outside));
-        let depth = (D::BITS > 0).then(|| DepthPlane::new(&setup, vertices, D::BITS, outside));
+            .map(|hither| Varyings::new::<T, I, P>(setup, vertices, hither, outside));
+        let depth = (D::BITS > 0).then(|| DepthPlane::new(setup, vertices, D::BITS, outside));
         let shading = Shading { fragment, varyings: varyings.as_ref(), depth: depth.as_ref() };
         let mut part = |setup: &Setup, bounds: Rect| {
             if cut {
@@ -206,7 +215,7 @@ where
             }
         };
         if !front.is_empty() {
-            part(&setup, front);
+            part(setup, front);
         }
         if W::BEHIND && !behind.is_empty() {
             part(&setup.mirrored(), behind);

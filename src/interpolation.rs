@@ -154,9 +154,6 @@ struct Varying {
     exponent: u32,
     /// The numerator's step a pixel, Q30, saturated.
     step: i32,
-    /// The least and the largest quotient at a vertex, Q30: 0, or one of the differences. Between them
-    /// every value is between the vertices', however few bits of `n` and `q` are left.
-    limits: [i32; 2],
 }
 
 impl Varying {
@@ -168,11 +165,7 @@ impl Varying {
         let largest = both[0].unsigned_abs().max(both[1].unsigned_abs());
         let exponent = 64 - largest.saturating_sub(1).leading_zeros();
         let differences = both.map(|d| low(shr_round(d << 30, exponent)));
-        let [d1, d2] = differences;
-        // Inwards by what sums along a row may be off: 511 steps of half a unit each.
-        let inset = if exponent > 20 { 1 << 9 } else { 0 };
-        let limits = [d1.min(d2).min(0) + inset, d1.max(d2).max(0) - inset];
-        let mut varying = Self { base: u0, differences, exponent, step: 0, limits };
+        let mut varying = Self { base: u0, differences, exponent, step: 0 };
         varying.step = varying.numerator(weight_steps);
         varying
     }
@@ -212,10 +205,15 @@ impl Varying {
         (i64::from(base) << 32) + (1 << 31)
     }
 
-    /// A quotient between the vertices'.
+    /// A quotient between the vertices', which have 0 and the differences: so every value is between the
+    /// vertices', however few bits of `n` and `q` are left.
     #[inline]
     fn limited(&self, quotient: i32) -> i32 {
-        quotient.max(self.limits[0]).min(self.limits[1])
+        let [d1, d2] = self.differences;
+        // Inwards by what sums along a row may be off: 511 steps of half a unit each.
+        let inset = if self.exponent > 20 { 1 << 9 } else { 0 };
+        let (low, high) = (d1.min(d2).min(0) + inset, d1.max(d2).max(0) - inset);
+        quotient.max(low).min(high)
     }
 }
 

@@ -299,7 +299,7 @@ impl Signed {
 
 /// Three reals as integers of at most 62 bits, and the exponent of their unit: exact but for what is
 /// more than 31 bits below the largest, of which bits below 2^-61 of it are dropped.
-pub(crate) fn align(values: [Signed; 3]) -> ([i128; 3], i32) {
+pub(crate) fn align(values: [Signed; 3]) -> ([i64; 3], i32) {
     let top = values
         .iter()
         .filter(|v| v.scale.mantissa != 0)
@@ -308,7 +308,7 @@ pub(crate) fn align(values: [Signed; 3]) -> ([i128; 3], i32) {
         .unwrap_or(0);
     let aligned = values.map(|v| {
         let drop = (top - v.scale.exponent).clamp(0, 63).unsigned_abs();
-        let magnitude = i128::from((u64::from(v.scale.mantissa) << 30) >> drop);
+        let magnitude = (i64::from(v.scale.mantissa) << 30) >> drop;
         if v.negative { -magnitude } else { magnitude }
     });
     (aligned, top - 30)
@@ -317,8 +317,9 @@ pub(crate) fn align(values: [Signed; 3]) -> ([i128; 3], i32) {
 /// The linear combination of three edge functions, or of their steps. Weights of at most 62 bits and
 /// edges of at most 62 make at most 126.
 #[inline]
-pub(crate) fn combine([u, v, w]: [i128; 3], [x, y, z]: [i64; 3]) -> i128 {
-    u * i128::from(x) + v * i128::from(y) + w * i128::from(z)
+pub(crate) fn combine([u, v, w]: [i64; 3], [x, y, z]: [i64; 3]) -> i128 {
+    let product = |u: i64, x: i64| i128::from(u) * i128::from(x);
+    product(u, x) + product(v, y) + product(w, z)
 }
 
 /// `v` as 64 bits and an exponent, floored.
@@ -450,6 +451,7 @@ mod tests {
         let values = [Signed::of(3), Signed::of(-5), Signed::of(7).times(Scale::power_of_two(40))];
         let ([a, b, c], exponent) = align(values);
         assert_eq!(c, 7 << (40 - exponent));
+        let [a, b, c] = [a, b, c].map(i128::from);
         assert_eq!((a * 5, c), (-b * 3, (a << 40) / 3 * 7));
         let ([zero, _, top], _) = align([Signed::of(0), Signed::of(1), Signed::of(i64::MIN)]);
         assert_eq!((zero, top), (0, -(1 << 61)));

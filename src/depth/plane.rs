@@ -79,7 +79,7 @@ enum Weights {
     Each([(Factor, bool); 3]),
     /// `k_i z_i` as integers on one scale, and the running units of their sum, where terms may
     /// cancel: the sum is exact, and scaled once.
-    Sum([i128; 3], Scale),
+    Sum([i64; 3], Scale),
 }
 
 /// Each of three terms that are not summed exactly is at most `2^TERM_BITS` running units: 4 of the
@@ -266,7 +266,7 @@ impl Weights {
 
 /// The running value of an exact sum, rounded, saturating. Not inlined: few triangles need it.
 #[inline(never)]
-fn sum(values: &[i128; 3], scale: Scale, edges: [i64; 3]) -> i64 {
+fn sum(values: &[i64; 3], scale: Scale, edges: [i64; 3]) -> i64 {
     let (sum, exponent) = narrowed(combine(*values, edges));
     scale.apply(sum, exponent)
 }

@@ -4,7 +4,7 @@ use super::{Frame, Outcome};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
 use crate::math::index;
-use crate::setup::{Outline, Tier, doubled_area, shows};
+use crate::setup::{Outline, Tier};
 use crate::traversal::{Half, halves};
 use fixed::types::I16F16;
 
@@ -13,23 +13,18 @@ where
     C: Target,
     T: Tier,
 {
-    /// Fills a triangle of three projected vertices.
+    /// Fills a triangle of three projected vertices, which are clockwise on the screen or not.
     #[inline]
     pub(super) fn fill_projected<F, const N: usize>(
         &mut self,
         corners: &[[i32; 2]; 3],
+        clockwise: bool,
         fragment: &F,
     ) -> Outcome
     where
         F: Fragment<C::Color, N>,
     {
-        let area = doubled_area(corners);
-        match shows(area, self.cull) {
-            None => return Outcome::ZeroArea,
-            Some(false) => return Outcome::Culled,
-            Some(true) => {}
-        }
-        let outline = Outline::new(corners, area > 0, T::SUBPIXEL_BITS);
+        let outline = Outline::new(corners, clockwise, T::SUBPIXEL_BITS);
         let whole = outline.bounds(T::SUBPIXEL_BITS);
         let (width, height) = self.target.size();
         let visible = self.viewport.visible(width, height);

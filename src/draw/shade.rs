@@ -74,7 +74,7 @@ where
     }
 
     /// Draws a span.
-    #[inline]
+    #[inline(always)]
     fn draw_span<F, const N: usize>(
         &mut self,
         setup: &Setup,

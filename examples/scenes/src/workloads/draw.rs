@@ -207,9 +207,11 @@ fn draw_torus_flat<T: Preset>(
     frame: &mut Deep<'_, T>,
     cache: &mut [Vertex<T>],
 ) -> Result<(), SceneError> {
-    let transform = torus::transform()?;
+    // By reference: a matrix that is moved out of its result stands on the stack twice.
+    let transform = torus::transform();
+    let transform = transform.as_ref().map_err(|&error| error)?;
     if let Some(faces) = FaceColors::new(&torus::FACE_COLORS) {
-        frame.draw(&torus::BARE_TORUS, &transform, &faces, cache);
+        frame.draw(&torus::BARE_TORUS, transform, &faces, cache);
     }
     Ok(())
 }
@@ -236,7 +238,8 @@ fn draw_torus_gouraud<T: Preset>(
     frame: &mut Deep<'_, T>,
     cache: &mut [Vertex<T, 3>],
 ) -> Result<(), SceneError> {
-    frame.draw(&torus::TORUS, &torus::transform()?, &Gouraud, cache);
+    let transform = torus::transform();
+    frame.draw(&torus::TORUS, transform.as_ref().map_err(|&error| error)?, &Gouraud, cache);
     Ok(())
 }
 
