@@ -22,6 +22,9 @@
 //! | `dx`, `dy`, a remainder | 19 |
 //! | `(h - fx) dy - dx f` | 28 |
 //! | a remainder times the rows above a box, at most 1,536 | 30 |
+//!
+//! Did not pay on a Cortex-M4: leaving out the slope's division for an edge of one row (W3 684 to 729 a
+//! triangle, a Cortex-M0 1035 to 1020), and the two halves as two calls instead of a loop (W3 754).
 
 use crate::setup::{Corner, Outline};
 use crate::vertex::Rect;
