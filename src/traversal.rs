@@ -1,4 +1,5 @@
-//! Scanline traversal: from edge functions to spans, by additions.
+//! Scanline traversal: from edge functions to spans, by additions; of projected triangles from their corners
+//! ([`halves`]).
 //!
 //! Each edge keeps the end of its interval on the current row and its exact value there. A row adds
 //! the edge's `b`; then the end moves a pixel at a time, one addition each, until the value changes
@@ -101,15 +102,15 @@ impl<I: EdgeInt> Edge<I> {
 
 /// Three edges, row by row.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Walk<I> {
-    edges: [Edge<I>; 3],
+struct Walk {
+    edges: [Edge<i64>; 3],
     bounds: Rect,
     y: i32,
 }
 
-impl<I: EdgeInt> Walk<I> {
+impl Walk {
     #[inline]
-    fn new(edges: [HalfPlane<I>; 3], bounds: Rect) -> Self {
+    fn new(edges: [HalfPlane<i64>; 3], bounds: Rect) -> Self {
         Self { edges: edges.map(|e| Edge::new(e, &bounds)), bounds, y: bounds.y0 }
     }
 
@@ -172,7 +173,7 @@ impl<const P: usize> ClipWalk<P> {
 /// The spans of a triangle inside a box, from the top: of any triangle, cut or not.
 #[derive(Debug)]
 pub(crate) struct Spans<'a, const P: usize> {
-    edges: Walk<i64>,
+    edges: Walk,
     /// Lent: it is large, and few triangles are cut.
     clip: Option<&'a mut ClipWalk<P>>,
 }

@@ -1,4 +1,4 @@
-//! Setup in the quick tiers: pixel space, narrow where all three vertices are projected.
+//! Setup in the quick tiers: pixel space, from 32-bit corners where all three vertices are projected.
 //!
 //! Bit budgets, with `S` the subpixel bits, a guard band of 1024 px and viewports up to 512 px:
 //!
@@ -6,11 +6,11 @@
 //! | --- | --- | --- |
 //! | coordinates | 2^(10 + S) | 2^24, 2^24, 2^15 |
 //! | `a`, `b` | 2^(11 + S) | 2^40 |
-//! | edge at a pixel | 2^(22.6 + 2 S), 2^(22.6 + S) after `>> S` | 2^51 in half pixels |
+//! | edge at a pixel | 2^(22.6 + 2 S) | 2^51 in half pixels |
 //! | determinant | 2^(22 + 2 S) | below 2^63 |
 //!
-//! Three projected: `E >> S`, floored, has the sign of `E` at every pixel, since a pixel's step is
-//! a multiple of `2^S`; with 8 bits it stays below 2^30.7, so the walk is in `i32` in both tiers.
+//! Three projected: differences of corners are the steps, in 32 bits; the rest has 64. Coverage is decided by
+//! their rows (`traversal/rows.rs`), not by these edge functions, unless a plane cuts the triangle.
 //!
 //! Mixed: the matrix in pixel space is the clip-space one times a map of determinant `-2 W H`;
 //! three homogeneous rows of at most `2^14 - 1` have a determinant of at most `4 (2^14 - 1)^3` (a 3
@@ -132,8 +132,7 @@ fn mixed([p, q, r]: &[[i64; 3]; 3]) -> Lines {
 
 const _: () = {
     let band = (2 * GUARD_BAND) << 8;
-    let reach = (GUARD_BAND + Viewport::MAX_SIDE as i64 + 1) << 8;
-    assert!((2 * band * reach) >> 8 <= i32::MAX as i64, "projected edge functions overflow i32");
+    assert!(band <= i32::MAX as i64, "differences of projected corners overflow i32");
     let side = Viewport::MAX_SIDE as i128;
     let entry = (1i128 << HOMOGENEOUS_BITS) - 1;
     assert!(2 * side * side * 4 * entry * entry * entry < 1 << 63, "a determinant overflows i64");
@@ -154,15 +153,15 @@ mod tests {
         let v = snap::<4>([[-900, 310, 1000], [2000, 1500, 2700], [-77, -3000, 4000]], &viewport);
         let points = [0, 1, 2].map(|i: usize| v[i].in_pixels(&viewport));
         let corners = Quick::projected([&v[0], &v[1], &v[2]]).unwrap();
-        let (narrow, wide) = (projected::<4>(&corners).unwrap(), mixed(&points));
+        let (short, wide) = (projected::<4>(&corners).unwrap(), mixed(&points));
         for (x, y) in [(0, 0), (17, 200), (239, 319)] {
             let at = |e: &[i64; 3]| 2 * (e[0] * i64::from(x) + e[1] * i64::from(y)) + e[2];
             // In half pixels and times the pixel's 16 subpixels' w: 2.
             let sign = wide.determinant.signum();
-            assert_eq!(narrow.edges_at(x, y).map(|e| 2 * e), wide.edges.map(|e| sign * at(&e)));
+            assert_eq!(short.edges_at(x, y).map(|e| 2 * e), wide.edges.map(|e| sign * at(&e)));
         }
         assert_eq!(16 * doubled_area(&corners), wide.determinant);
-        assert_eq!(narrow.facing, facing(wide.determinant).unwrap());
+        assert_eq!(short.facing, facing(wide.determinant).unwrap());
     }
 
     #[test]
