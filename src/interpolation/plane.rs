@@ -190,12 +190,14 @@ impl<const N: usize> Planes<N> {
         let [v0, v1, v2] = vertices.map(|v| v.varyings.map(I16F16::to_bits));
         for (((plane, u0), u1), u2) in planes.each.iter_mut().zip(v0).zip(v1).zip(v2) {
             let varying = Varying::new([u0, u1, u2], across);
+            if varying.exponent > WIDEST || u0.unsigned_abs() >= 1 << 30 {
+                return None;
+            }
             widest = widest.max(varying.exponent);
             let gradient = [varying.fixed(varying.step), varying.fixed(varying.numerator(down))];
             *plane = Plane::through(varying.start(), gradient, back);
         }
-        let in_range = v0.iter().all(|u| u.unsigned_abs() < 1 << 30) && widest <= WIDEST;
-        (in_range && (linear || is_straight(vertices, widest))).then_some(planes)
+        (linear || is_straight(vertices, widest)).then_some(planes)
     }
 
     /// The values along a block.

@@ -17,7 +17,7 @@ use qmp::Qmp;
 use serde_json::json;
 use std::fs;
 use std::io::{ErrorKind, Read};
-use std::os::unix::net::UnixListener;
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -130,11 +130,11 @@ fn cost((number, line): (usize, &str)) -> Result<Cost, String> {
 pub fn capture(machine: &str, elf: &Path, size: (u32, u32)) -> Result<Capture, String> {
     let start = Instant::now();
     let folder = Folder::new()?;
-    let [socket, uart, picture, ram] =
-        ["qmp", "uart", "panel.ppm", "ram"].map(|name| folder.0.join(name));
+    let [uart, picture, ram] = ["uart", "panel.ppm", "ram"].map(|name| folder.0.join(name));
     // Bound before the emulator starts, so that it finds it.
-    let listener = UnixListener::bind(&socket).map_err(|error| error.to_string())?;
-    let mut emulator = Emulator::start(machine, elf, &socket, &uart)?;
+    let listener = qmp::listen()?;
+    let address = listener.local_addr().map_err(|error| error.to_string())?;
+    let mut emulator = Emulator::start(machine, elf, address, &uart)?;
     let mut session = || -> Result<(), String> {
         let mut qmp = Qmp::accept(&listener, start + PATIENCE, || emulator.exited())?;
         qmp.execute("cont", &json!({}))?;
@@ -142,7 +142,7 @@ pub fn capture(machine: &str, elf: &Path, size: (u32, u32)) -> Result<Capture, S
         qmp.execute("screendump", &json!({ "filename": picture }))?;
         let all = json!({ "val": RAM, "size": RAM_BYTES, "filename": ram });
         qmp.execute("pmemsave", &all)?;
-        qmp.execute("quit", &json!({}))
+        qmp.quit()
     };
     let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
     let printed = || String::from_utf8_lossy(&read(&uart).unwrap_or_default()).into_owned();
@@ -167,11 +167,11 @@ fn longest_painted(ram: &[u8]) -> usize {
 struct Emulator(Child);
 
 impl Emulator {
-    fn start(machine: &str, elf: &Path, socket: &Path, uart: &Path) -> Result<Self, String> {
+    fn start(machine: &str, elf: &Path, qmp: SocketAddr, uart: &Path) -> Result<Self, String> {
         let mut command = Command::new("qemu-system-arm");
         command.args(["-M", machine, "-icount", "shift=0", "-display", "none", "-monitor", "none"]);
         command.args(["-S", "-action", "reboot=shutdown,shutdown=pause"]);
-        command.arg("-qmp").arg(format!("unix:{}", socket.display()));
+        command.arg("-qmp").arg(format!("tcp:{qmp}"));
         command.arg("-serial").arg(format!("file:{}", uart.display()));
         command.arg("-kernel").arg(elf);
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());

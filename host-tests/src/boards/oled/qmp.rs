@@ -1,4 +1,4 @@
-//! A client of QEMU's machine protocol: a line of JSON a message, over a Unix socket.
+//! A client of QEMU's machine protocol: a line of JSON a message, over the loopback.
 //!
 //! `serde_json` reads the lines: file names are escaped and keys come in any order, so a search in
 //! the text would not do. A typed client (crate `qapi`) is a wrapper of every command of QEMU's,
@@ -7,16 +7,25 @@
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, ErrorKind, Write};
-use std::os::unix::net::{UnixListener, UnixStream};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::time::{Duration, Instant};
 
 /// A connection that is given up at a deadline.
 #[derive(Debug)]
 pub struct Qmp {
-    stream: BufReader<UnixStream>,
+    stream: BufReader<TcpStream>,
     deadline: Instant,
     /// Events that came while an answer was waited for.
     events: VecDeque<String>,
+}
+
+/// A socket for QEMU to connect to, at a port that is free.
+///
+/// # Errors
+///
+/// What the system says.
+pub fn listen() -> Result<TcpListener, String> {
+    TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(|error| error.to_string())
 }
 
 /// How often a connection is looked for.
@@ -29,7 +38,7 @@ impl Qmp {
     ///
     /// What `has_failed` says where it says something; at the deadline; or what the socket says.
     pub fn accept(
-        listener: &UnixListener,
+        listener: &TcpListener,
         deadline: Instant,
         mut has_failed: impl FnMut() -> Option<String>,
     ) -> Result<Self, String> {
@@ -80,6 +89,16 @@ impl Qmp {
         }
     }
 
+    /// Ends QEMU, which may close the connection before it answers.
+    ///
+    /// # Errors
+    ///
+    /// What the socket says where it cannot be asked.
+    pub fn quit(mut self) -> Result<(), String> {
+        let line = json!({ "execute": "quit" }).to_string() + "\n";
+        self.stream.get_mut().write_all(line.as_bytes()).map_err(|error| error.to_string())
+    }
+
     /// Waits for an event.
     ///
     /// # Errors
@@ -123,19 +142,15 @@ fn event(message: &Value) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::PathBuf;
     use std::thread::{self, JoinHandle};
 
     /// A socket, and a QEMU that says these lines, one after each line that it gets but the first,
     /// which is said unasked. It returns what it got.
-    fn played(name: &str, says: &'static [&str]) -> (UnixListener, JoinHandle<Vec<String>>) {
-        let path: PathBuf =
-            std::env::temp_dir().join(format!("hither-qmp-{}-{name}", std::process::id()));
-        let _ = std::fs::remove_file(&path);
-        let listener = UnixListener::bind(&path).unwrap();
+    fn played(says: &'static [&str]) -> (TcpListener, JoinHandle<Vec<String>>) {
+        let listener = listen().unwrap();
+        let address = listener.local_addr().unwrap();
         let qemu = thread::spawn(move || {
-            let mut stream = BufReader::new(UnixStream::connect(&path).unwrap());
-            std::fs::remove_file(&path).unwrap();
+            let mut stream = BufReader::new(TcpStream::connect(address).unwrap());
             let mut got = Vec::new();
             for (at, line) in says.iter().enumerate() {
                 if at > 0 {
@@ -150,21 +165,18 @@ mod tests {
         (listener, qemu)
     }
 
-    fn accept(listener: &UnixListener, millis: u64) -> Result<Qmp, String> {
+    fn accept(listener: &TcpListener, millis: u64) -> Result<Qmp, String> {
         Qmp::accept(listener, Instant::now() + Duration::from_millis(millis), || None)
     }
 
     #[test]
     fn events_are_kept_while_an_answer_is_waited_for() {
-        let (listener, qemu) = played(
-            "events",
-            &[
-                "{\"QMP\": {}}\n",
-                "{\"return\": {}}\n",
-                "{\"event\": \"RESUME\"}\n{\"event\": \"STOP\"}\n{\"return\": {}}\n",
-                "{\"error\": {\"desc\": \"no\"}}\n",
-            ],
-        );
+        let (listener, qemu) = played(&[
+            "{\"QMP\": {}}\n",
+            "{\"return\": {}}\n",
+            "{\"event\": \"RESUME\"}\n{\"event\": \"STOP\"}\n{\"return\": {}}\n",
+            "{\"error\": {\"desc\": \"no\"}}\n",
+        ]);
         let mut qmp = accept(&listener, 5000).unwrap();
         qmp.execute("cont", &json!({})).unwrap();
         qmp.wait_for("STOP").unwrap();
@@ -181,18 +193,16 @@ mod tests {
 
     #[test]
     fn silence_and_strangers_are_errors() {
-        let (listener, qemu) = played("strangers", &["{\"hello\": 1}\n"]);
+        let (listener, qemu) = played(&["{\"hello\": 1}\n"]);
         assert_eq!(accept(&listener, 5000).unwrap_err(), "it greets with {\"hello\":1}");
         qemu.join().unwrap();
-        let path = std::env::temp_dir().join(format!("hither-qmp-{}-silence", std::process::id()));
-        let listener = UnixListener::bind(&path).unwrap();
+        let listener = listen().unwrap();
         assert_eq!(accept(&listener, 1).unwrap_err(), "it did not connect in time");
         let failed = || Some("it is gone".to_owned());
         let error = Qmp::accept(&listener, Instant::now(), failed).unwrap_err();
         assert_eq!(error, "it is gone");
-        let silent = UnixStream::connect(&path).unwrap();
+        let silent = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         assert_eq!(accept(&listener, 50).unwrap_err(), "it did not answer in time");
         drop(silent);
-        std::fs::remove_file(&path).unwrap();
     }
 }
