@@ -99,6 +99,30 @@ fn channel(unit: I16F16, max: u32) -> u32 {
 pub trait FromUnit: Copy {
     /// The nearest colour to `[r, g, b]`, each in `[0, 1]`.
     fn from_unit(rgb: [I16F16; 3]) -> Self;
+
+    /// Where the channels lie in a word that is stepped as one, if that is worth while.
+    #[doc(hidden)]
+    const LANES: Option<[Lane; 3]> = None;
+
+    /// The colour of such a word.
+    #[doc(hidden)]
+    #[inline]
+    #[must_use]
+    fn from_lanes(_: u32) -> Self {
+        Self::from_unit([I16F16::ZERO; 3])
+    }
+}
+
+/// Where a varying in `[0, 1]` lies in a word of several: `u max + 1/2` with some bits of fraction.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Lane {
+    /// Bits of the whole number; its largest value is `max = 2^bits - 1`.
+    pub(crate) bits: u32,
+    /// Bits of whole number and fraction.
+    pub(crate) width: u32,
+    /// The lowest bit's place.
+    pub(crate) place: u32,
 }
 
 impl FromUnit for Rgb565 {
@@ -106,6 +130,23 @@ impl FromUnit for Rgb565 {
     #[expect(clippy::cast_possible_truncation, reason = "channels are 5 and 6 bits")]
     fn from_unit([r, g, b]: [I16F16; 3]) -> Self {
         Self((channel(r, 31) << 11 | channel(g, 63) << 5 | channel(b, 31)) as u16)
+    }
+
+    /// Green above red above blue, so that whole numbers are 5 above where they are in a colour, or 21.
+    const LANES: Option<[Lane; 3]> = Some([
+        Lane { bits: 5, width: 11, place: 10 },
+        Lane { bits: 6, width: 11, place: 21 },
+        Lane { bits: 5, width: 10, place: 0 },
+    ]);
+
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the high half was folded into the low one"
+    )]
+    fn from_lanes(word: u32) -> Self {
+        let spread = (word >> 5) & 0x07e0_f81f;
+        Self((spread | spread >> 16) as u16)
     }
 }
 

@@ -6,10 +6,9 @@
 
 mod plane;
 
-pub(crate) use plane::{DepthPlane, DepthRun};
+pub(crate) use plane::{DepthPlane, DepthRun, projected};
 
 use crate::buffer::BufferSize;
-use crate::math::index;
 use bytemuck::Pod;
 use core::marker::PhantomData;
 
@@ -84,9 +83,9 @@ pub trait DepthTest: core::fmt::Debug {
     #[doc(hidden)]
     type Word: DepthWord;
 
-    /// The stored depths of `length` pixels from `(x, y)` of the buffer; none where there is no depth.
+    /// The stored depths of `length` pixels from `(x, y)` of the buffer, which has them; none where there is no depth.
     #[doc(hidden)]
-    fn row(&mut self, x: i32, y: i32, length: i32) -> &mut [Self::Word];
+    fn row(&mut self, x: usize, y: usize, length: usize) -> Option<&mut [Self::Word]>;
 
     /// Tests a running value against a stored depth, and stores it where it passes.
     #[doc(hidden)]
@@ -105,8 +104,8 @@ impl DepthTest for NoDepth {
     type Word = u16;
 
     #[inline]
-    fn row(&mut self, _: i32, _: i32, _: i32) -> &mut [u16] {
-        &mut []
+    fn row(&mut self, _: usize, _: usize, _: usize) -> Option<&mut [u16]> {
+        None
     }
 
     #[inline]
@@ -122,8 +121,8 @@ impl DepthTest for NoDepth {
 #[derive(Debug)]
 pub struct DepthBuffer<'a, W: DepthWord = u16, C: Compare = Less> {
     words: &'a mut [W],
-    width: i32,
-    height: i32,
+    width: u32,
+    height: u32,
     compare: PhantomData<C>,
 }
 
@@ -135,7 +134,7 @@ impl<'a, W: DepthWord> DepthBuffer<'a, W> {
     ///
     /// [`BufferSize`] where a side is 0 or there are fewer words.
     pub fn try_new(words: &'a mut [W], width: u32, height: u32) -> Result<Self, BufferSize> {
-        let (width, height) = BufferSize::check(width, height, words.len())?;
+        BufferSize::check(width, height, words.len())?;
         Ok(Self { words, width, height, compare: PhantomData })
     }
 }
@@ -150,7 +149,7 @@ impl<'a, W: DepthWord, C: Compare> DepthBuffer<'a, W, C> {
 
     /// Width and height in pixels.
     #[must_use]
-    pub(crate) const fn size(&self) -> (i32, i32) {
+    pub(crate) const fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
 
@@ -172,10 +171,9 @@ impl<W: DepthWord, C: Compare> DepthTest for DepthBuffer<'_, W, C> {
     type Word = W;
 
     #[inline]
-    fn row(&mut self, x: i32, y: i32, length: i32) -> &mut [W] {
-        let start = index(y * self.width + x);
-        let words = self.words.get_mut(start..start.saturating_add(index(length)));
-        words.unwrap_or_default()
+    fn row(&mut self, x: usize, y: usize, length: usize) -> Option<&mut [W]> {
+        let start = y.wrapping_mul(self.width as usize).wrapping_add(x);
+        self.words.get_mut(start..start.wrapping_add(length))
     }
 
     #[inline]
@@ -207,7 +205,8 @@ mod tests {
         step: u32,
     ) -> Vec<bool> {
         let runs = (0..).map(|i: u32| running.wrapping_add(i.wrapping_mul(step)));
-        buffer.row(x, y, length).iter_mut().zip(runs).map(|(d, r)| D::passes(r, d)).collect()
+        let row = buffer.row(x as usize, y as usize, length as usize).unwrap_or_default();
+        row.iter_mut().zip(runs).map(|(d, r)| D::passes(r, d)).collect()
     }
 
     #[test]

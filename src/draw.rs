@@ -2,6 +2,8 @@
 
 mod flat;
 mod frame;
+mod lanes;
+mod projected;
 mod shade;
 
 pub use frame::{DepthFrame, DepthSize, DisplayFrame, Frame};
@@ -14,7 +16,7 @@ use crate::interpolation::{Correction, Interpolates, Varyings};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
 use crate::setup::{Part, Setup, Tier, doubled_area, shows};
 use crate::traversal::ClipWalk;
-use crate::vertex::{ClipVertex, Distance, Outside, Rect, Vertex};
+use crate::vertex::{ClipVertex, Distance, Outside, Position, Rect, Vertex};
 use core::slice::from_mut;
 use fixed::types::I16F16;
 use shade::Shading;
@@ -111,7 +113,7 @@ where
     /// Snaps a vertex to the tier's grid for this frame's viewport and planes.
     ///
     /// Snapped vertices may be kept as long as the viewport's size, the hither plane and the planes
-    /// stay the same.
+    /// stay the same. Those that a frame without depth has snapped are slower in one with depth.
     #[inline(always)]
     pub fn snap<const N: usize>(
         &self,
@@ -131,9 +133,14 @@ where
             outside.0 |= if value < 0 { bit } else { 0 };
             bit <<= 1;
         }
+        let position = T::snap(vertex, least_w, &self.viewport);
+        let depth = if D::BITS > 0 { position.depth(vertex) } else { None };
+        if depth.is_some() {
+            outside.0 |= Outside::RANGED;
+        }
         Vertex {
-            position: T::snap(vertex, least_w, &self.viewport),
-            z: vertex.raw[2],
+            position,
+            z: depth.unwrap_or(vertex.raw[2]),
             shift: vertex.shift,
             outside,
             varyings,
@@ -171,17 +178,8 @@ where
             return outcome;
         }
         let cut = self.cuts::<N>(a | b | c);
-        if let Some(corners) = T::projected(vertices.map(|v| &v.position)) {
-            // Before anything is made of them: half of a mesh's triangles look away.
-            let area = doubled_area(&corners);
-            match shows(area, self.cull) {
-                None => return Outcome::ZeroArea,
-                Some(false) => return Outcome::Culled,
-                Some(true) => {}
-            }
-            if F::UNIFORM && D::BITS == 0 && N == 0 && !cut {
-                return self.fill_projected(&corners, area > 0, fragment);
-            }
+        if let Some(outcome) = self.draw_projected(vertices, cut, fragment) {
+            return outcome;
         }
         // By reference: it is large.
         let setup = T::set_up(vertices.map(|v| &v.position), &self.viewport);
@@ -191,8 +189,8 @@ where
         if self.cull.hides(setup.facing) {
             return Outcome::Culled;
         }
-        let (width, height) = self.target.size();
-        let visible = self.viewport.visible(width, height);
+        let (left, top) = self.viewport.origin;
+        let visible = self.window().moved(-left, -top);
         let boxes = [Part::Front, Part::Behind].map(|part| setup.bounds(part).intersect(visible));
         let [front, behind] = boxes;
         if front.is_empty() && (!W::BEHIND || behind.is_empty()) {
@@ -208,8 +206,6 @@ where
         let mut part = |setup: &Setup, bounds: Rect| {
             if cut {
                 self.draw_cut(setup, bounds, vertices, outside, &shading);
-            } else if let Some(corners) = T::projected(vertices.map(|v| &v.position)) {
-                self.draw_rows(setup, &corners, bounds, &shading);
             } else {
                 self.draw_part(setup, bounds, None, &shading);
             }
@@ -225,6 +221,44 @@ where
         } else {
             Outcome::Drawn
         }
+    }
+
+    /// Draws a triangle of three projected vertices; `None` where it is not one, or has to be drawn as any other.
+    #[inline]
+    fn draw_projected<F, const N: usize>(
+        &mut self,
+        vertices: [&Vertex<T, N, P>; 3],
+        cut: bool,
+        fragment: &F,
+    ) -> Option<Outcome>
+    where
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
+        let corners = T::projected(vertices.map(|v| &v.position))?;
+        // Before anything is made of them: half of a mesh's triangles look away.
+        let area = doubled_area(&corners);
+        match shows(area, self.cull) {
+            None => return Some(Outcome::ZeroArea),
+            Some(false) => return Some(Outcome::Culled),
+            Some(true) => {}
+        }
+        if cut {
+            return None;
+        }
+        let corners = self.in_target(corners);
+        if F::UNIFORM && D::BITS == 0 && N == 0 {
+            return Some(self.fill_projected(&corners, area > 0, fragment));
+        }
+        self.shade_projected(&corners, area, vertices, fragment)
+    }
+
+    /// Corners in the target's subpixels, of those in the viewport's.
+    #[inline]
+    fn in_target(&self, corners: [[i32; 2]; 3]) -> [[i32; 2]; 3] {
+        let (left, top) = self.viewport.origin;
+        let (left, top) = (left << T::SUBPIXEL_BITS, top << T::SUBPIXEL_BITS);
+        corners.map(|[x, y]| [x + left, y + top])
     }
 
     /// Whether planes may cut a triangle of which some vertex is outside of each bound in `any`.

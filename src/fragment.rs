@@ -1,6 +1,6 @@
 //! Fragments: from interpolated varyings to a colour.
 
-use crate::color::{FromUnit, PixelFormat};
+use crate::color::{FromUnit, Lane, PixelFormat};
 use crate::texture::Texture;
 use fixed::types::I16F16;
 
@@ -39,8 +39,23 @@ pub trait Fragment<C: Copy, const N: usize>: Copy {
     /// varyings, unless a shader looks at the pixel's position.
     const UNIFORM: bool = N == 0;
 
+    /// How far off varyings may be, in raw steps of 2^-16, where a tier that is not exact takes a straight line over
+    /// a triangle for a curve: 2^-9, an eighth of a texel on a side of 64.
+    const TOLERANCE: u32 = 1 << 7;
+
     /// The colour at a pixel.
     fn shade(&self, sample: Sample<N>) -> C;
+
+    /// Where varyings in `[0, 1]` lie in a word that is stepped as one, if that is worth while.
+    #[doc(hidden)]
+    const LANES: Option<[Lane; N]> = None;
+
+    /// The colour of such a word.
+    #[doc(hidden)]
+    #[inline]
+    fn shade_lanes(&self, _: u32) -> C {
+        self.shade(Sample { x: 0, y: 0, varyings: [I16F16::ZERO; N] })
+    }
 
     /// The shader of a face, by its index in the mesh; 0 for a single triangle.
     #[inline]
@@ -93,6 +108,16 @@ impl<C: Copy> Fragment<C, 0> for FaceColors<'_, C> {
 pub struct Gouraud;
 
 impl<C: FromUnit> Fragment<C, 3> for Gouraud {
+    /// 2^-7: a quarter of a step of 5-bit colour.
+    const TOLERANCE: u32 = 1 << 9;
+
+    const LANES: Option<[Lane; 3]> = C::LANES;
+
+    #[inline]
+    fn shade_lanes(&self, word: u32) -> C {
+        C::from_lanes(word)
+    }
+
     #[inline]
     fn shade(&self, sample: Sample<3>) -> C {
         C::from_unit(sample.varyings)

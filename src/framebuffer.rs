@@ -64,18 +64,21 @@ pub trait Target {
         self.write(x, y, core::iter::repeat_n(Some(color), length));
     }
 
-    /// Fills a run a row from row `y` down with one colour: columns `x0 .. x1`, none where `x0 >= x1`.
+    /// Fills a run a row from row `y` down with one colour, all inside of the target: columns `x + x0 .. x + x1`, none
+    /// where `x0 >= x1`.
     #[doc(hidden)]
     #[inline]
     fn fill_rows(
         &mut self,
+        x: usize,
         y: usize,
-        runs: impl Iterator<Item = (usize, usize)>,
+        runs: impl Iterator<Item = (i32, i32)>,
         color: Self::Color,
     ) {
         for (row, (x0, x1)) in runs.enumerate() {
             if x0 < x1 {
-                self.fill(x0, y + row, x1 - x0, color);
+                let (x0, length) = run(x0, x1);
+                self.fill(x + x0, y + row, length, color);
             }
         }
     }
@@ -157,10 +160,12 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
             if let Some(color) = color {
                 *word = F::encode(color);
             }
+            // As in `write_each`.
+            core::hint::black_box(());
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn write_each<L>(
         &mut self,
         x: usize,
@@ -168,10 +173,32 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
         lanes: &mut [L],
         mut color: impl FnMut(&mut L) -> Option<F::Color>,
     ) {
-        for (word, lane) in self.from(x, y).iter_mut().zip(lanes) {
+        let start = y.wrapping_mul(self.width as usize).wrapping_add(x);
+        let Some(words) = self.words.get_mut(start..start.wrapping_add(lanes.len())) else {
+            return;
+        };
+        let mut draw = |word: &mut F::Word, lane: &mut L| {
             if let Some(color) = color(lane) {
                 *word = F::encode(color);
             }
+        };
+        let (mut words, mut lanes) = (words, lanes);
+        if lanes.len() >= PAIRED {
+            let (mut word_pairs, mut lane_pairs) =
+                (words.chunks_exact_mut(2), lanes.chunks_exact_mut(2));
+            for pair in (&mut word_pairs).zip(&mut lane_pairs) {
+                if let ([w0, w1], [l0, l1]) = pair {
+                    draw(w0, l0);
+                    draw(w1, l1);
+                }
+                // Nothing; but with it the loop is not unrolled further, which takes more registers than there are.
+                core::hint::black_box(());
+            }
+            (words, lanes) = (word_pairs.into_remainder(), lane_pairs.into_remainder());
+        }
+        for (word, lane) in words.iter_mut().zip(lanes) {
+            draw(word, lane);
+            core::hint::black_box(());
         }
     }
 
@@ -183,18 +210,24 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
     }
 
     #[inline(always)]
-    fn fill_rows(&mut self, y: usize, runs: impl Iterator<Item = (usize, usize)>, color: F::Color) {
+    fn fill_rows(
+        &mut self,
+        x: usize,
+        y: usize,
+        runs: impl Iterator<Item = (i32, i32)>,
+        color: F::Color,
+    ) {
         let word = F::encode(color);
-        let width = self.width as usize;
-        let mut below = self.from(0, y);
+        let stride = self.width as usize;
+        let mut below = self.from(x, y);
         for (x0, x1) in runs {
-            let Some((row, rest)) = below.split_at_mut_checked(width) else {
-                return;
-            };
-            if let Some(run) = row.get_mut(x0..x1) {
+            if let Some(run) = below.get_mut(index(x0)..index(x1)) {
                 fill(run, word);
             }
-            below = rest;
+            let Some(next) = below.get_mut(stride..) else {
+                return;
+            };
+            below = next;
         }
     }
 
@@ -202,6 +235,9 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
         self.words.fill(F::encode(color));
     }
 }
+
+/// Runs of this length are drawn by pairs, which takes less a pixel and more before and after.
+const PAIRED: usize = 8;
 
 /// Fills a run of words, short ones without a loop.
 #[inline]

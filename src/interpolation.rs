@@ -31,7 +31,7 @@ use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
-use plane::{Numerators, Planes};
+pub(crate) use plane::{Line, Linear, Pieces, is_straight, nearness_of};
 
 /// Pixels that are stepped from one exact start, where each is divided.
 pub(crate) const BLOCK: i32 = 64;
@@ -113,34 +113,17 @@ pub(crate) enum Mode {
     Pieces,
 }
 
-/// The varyings of one triangle.
+/// The varyings of one triangle, as sums of the vertices' values, weighted by the edge functions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Varyings<const N: usize> {
-    /// Linear on the screen, stepped from a vertex.
-    Planes(Planes<N>),
-    /// Summed from the edge functions.
-    Weighted(Weighted<N>),
-}
-
-/// Varyings as sums of the vertices' values, weighted by the edge functions.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Weighted<const N: usize> {
+pub(crate) struct Varyings<const N: usize> {
     mode: Mode,
     /// Whether affine was asked for and could not be had.
     fallback: bool,
-    source: Source<N>,
+    /// Weight of vertex `i` is `scale[i] E_i`, at most 1.
+    scale: [Factor; 3],
     /// `q` a pixel, Q30.
     q_step: i32,
     each: [Varying; N],
-}
-
-/// What numerators and `q` come from.
-#[derive(Clone, Copy, Debug)]
-enum Source<const N: usize> {
-    /// Weight of vertex `i` is `scale[i] E_i`, at most 1.
-    Edges([Factor; 3]),
-    /// They are linear on the screen, stepped from a vertex.
-    Planes(Numerators<N>),
 }
 
 /// One varying: its value at vertex 0, and how the numerator is made from the other two's weights.
@@ -252,6 +235,9 @@ impl Inverse {
     }
 }
 
+/// Where one straight piece ends and the next begins: its quotients, so that they are divided once.
+pub(crate) type Joint<const N: usize> = Option<[i32; N]>;
+
 impl<const N: usize> Varyings<N> {
     /// Sets up a triangle's varyings for a range that has a hither plane.
     #[inline(never)]
@@ -262,59 +248,7 @@ impl<const N: usize> Varyings<N> {
         outside: Outside,
     ) -> Self {
         let crosses = outside.0 & Outside::HITHER != 0;
-        let linear = (C::AFFINE && !crosses) || same_w(vertices);
-        if setup.projected && (linear || (C::EVERY > 1 && !crosses)) {
-            if let Some(planes) = Planes::new(setup, vertices, linear) {
-                return Self::Planes(planes);
-            }
-        }
-        Self::Weighted(Weighted::new::<T, C, P>(setup, vertices, hither, linear))
-    }
-
-    /// How they run along a row.
-    #[inline]
-    pub(crate) const fn mode(&self) -> Mode {
-        match self {
-            Self::Planes(_) => Mode::Linear,
-            Self::Weighted(weighted) => weighted.mode,
-        }
-    }
-
-    /// Whether affine was asked for and could not be had.
-    #[inline]
-    pub(crate) const fn fallback(&self) -> bool {
-        matches!(self, Self::Weighted(weighted) if weighted.fallback)
-    }
-
-    /// The straight line through a block. `joint` is where the block before ended, if this one goes on
-    /// from there; where there is `more` of the span it becomes where this one ends.
-    #[inline]
-    pub(crate) fn ramp(
-        &self,
-        setup: &Setup,
-        block: Span,
-        more: bool,
-        joint: &mut Joint<N>,
-    ) -> Ramp<N> {
-        match self {
-            Self::Planes(planes) => planes.ramp(block),
-            Self::Weighted(weighted) => weighted.ramp(setup, block, more, joint),
-        }
-    }
-}
-
-/// Where one straight piece ends and the next begins: its quotients, so that they are divided once.
-pub(crate) type Joint<const N: usize> = Option<[i32; N]>;
-
-impl<const N: usize> Weighted<N> {
-    #[inline]
-    fn new<T: Snap, C: Correction, const P: usize>(
-        setup: &Setup,
-        vertices: [&Vertex<T, N, P>; 3],
-        hither: Hither,
-        linear: bool,
-    ) -> Self {
-        let mode = if linear {
+        let mode = if (C::AFFINE && !crosses) || same_w(vertices) {
             Mode::Linear
         } else if C::EVERY > 1 {
             Mode::Pieces
@@ -338,27 +272,28 @@ impl<const N: usize> Weighted<N> {
         for (((varying, u0), u1), u2) in each.iter_mut().zip(v0).zip(v1).zip(v2) {
             *varying = Varying::new([u0, u1, u2].map(I16F16::to_bits), steps);
         }
-        let planes = if mode == Mode::Pieces {
-            Numerators::new(setup, vertices[0], hither, scale, &each)
-        } else {
-            None
-        };
-        let factors = scale.map(|scale| Factor::new(scale, 0));
-        let source = planes.map_or(Source::Edges(factors), Source::Planes);
-        Self { mode, fallback: C::AFFINE && mode != Mode::Linear, source, q_step, each }
+        let scale = scale.map(|scale| Factor::new(scale, 0));
+        Self { mode, fallback: C::AFFINE && mode != Mode::Linear, scale, q_step, each }
+    }
+
+    /// How they run along a row.
+    #[inline]
+    pub(crate) const fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// Whether affine was asked for and could not be had.
+    #[inline]
+    pub(crate) const fn fallback(&self) -> bool {
+        self.fallback
     }
 
     /// Numerators and `q` at a covered pixel.
     #[inline]
     fn at(&self, setup: &Setup, x: i32, y: i32) -> ([i32; N], i32) {
-        match &self.source {
-            Source::Edges(scale) => {
-                let [w0, w1, w2] = weights(scale, setup.edges_at(x, y)).map(i64::from);
-                let q = saturate((w0 + w1 + w2 + 2) >> 2);
-                (self.each.map(|v| v.numerator([w0, w1, w2])), q)
-            }
-            Source::Planes(planes) => planes.at(x, y),
-        }
+        let [w0, w1, w2] = weights(&self.scale, setup.edges_at(x, y)).map(i64::from);
+        let q = saturate((w0 + w1 + w2 + 2) >> 2);
+        (self.each.map(|v| v.numerator([w0, w1, w2])), q)
     }
 
     /// Quotients at a covered pixel.
@@ -376,10 +311,17 @@ impl<const N: usize> Weighted<N> {
         quotients
     }
 
-    /// The straight line through a block: see [`Varyings::ramp`]. Not inlined: the pixel loop after it wants
+    /// The straight line through a block. `joint` is where the block before ended, if this one goes on from there;
+    /// where there is `more` of the span it becomes where this one ends. Not inlined: the pixel loop after it wants
     /// the registers.
     #[inline(never)]
-    fn ramp(&self, setup: &Setup, block: Span, more: bool, joint: &mut Joint<N>) -> Ramp<N> {
+    pub(crate) fn ramp(
+        &self,
+        setup: &Setup,
+        block: Span,
+        more: bool,
+        joint: &mut Joint<N>,
+    ) -> Ramp<N> {
         let at = |x: i32| self.quotients(setup, x, block.y);
         let quotients = joint.take().unwrap_or_else(|| at(block.x0));
         let mut steps = self.each.map(|v| v.step);
@@ -401,12 +343,6 @@ impl<const N: usize> Weighted<N> {
             *ramp_step = varying.fixed(step);
         }
         ramp
-    }
-
-    /// Whether each pixel is divided.
-    #[inline]
-    pub(crate) const fn is_divided(&self) -> bool {
-        matches!(self.mode, Mode::Divided)
     }
 
     /// The divided run of a block.
@@ -487,7 +423,7 @@ pub(crate) struct Ramp<const N: usize> {
 /// Varyings divided at each pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Divided<'a, const N: usize> {
-    varyings: &'a Weighted<N>,
+    varyings: &'a Varyings<N>,
     n: [i32; N],
     q: i32,
 }

@@ -106,6 +106,8 @@ mod vertex;
 pub use band::{Band, Bands, FrameError, SwapChain, Transfer};
 pub use buffer::BufferSize;
 pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
+#[doc(hidden)]
+pub use color::Lane;
 pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};
 pub use depth::{Always, Compare, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};

@@ -39,8 +39,9 @@ pub(crate) const fn high(v: u64) -> u32 {
 
 /// An index from a coordinate; negative ones become an index that no slice has.
 #[inline]
-pub(crate) fn index(v: i32) -> usize {
-    usize::try_from(v).unwrap_or(usize::MAX)
+#[expect(clippy::cast_sign_loss, reason = "by intent: from 2^31 on no slice has it")]
+pub(crate) const fn index(v: i32) -> usize {
+    v as usize
 }
 
 /// A count as a signed number. Counts are below 2^31.

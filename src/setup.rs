@@ -14,9 +14,11 @@
 
 mod exact;
 mod outline;
+mod plane;
 mod quick;
 
 pub(crate) use outline::{Corner, Outline, doubled_area, shows};
+pub(crate) use plane::{Plane, Slopes};
 
 use crate::math::Scale;
 use crate::vertex::{Rect, Snap, Viewport};
@@ -29,6 +31,10 @@ pub trait Tier: Snap {
     /// Fraction bits of projected vertices.
     #[doc(hidden)]
     const SUBPIXEL_BITS: u32;
+
+    /// Whether what a pixel shows may be off by more than its rounding: colours stepped as one word.
+    #[doc(hidden)]
+    const APPROXIMATE: bool;
 
     /// The corners in subpixels, y down, where all three vertices are projected.
     #[doc(hidden)]
@@ -87,8 +93,6 @@ pub struct Setup {
     /// `E` at the centre of pixel (0, 0).
     pub(crate) c: [i64; 3],
     pub(crate) step: u32,
-    /// All three vertices are projected.
-    pub(crate) projected: bool,
     pub(crate) facing: Facing,
     /// `1 / w` at a pixel is the sum of `k_i E_i` times this, with `k_i` the vertices' scales.
     pub(crate) inverse: Scale,

@@ -1,5 +1,5 @@
 //! Scanline traversal: from edge functions to spans, by additions; of projected triangles from their corners
-//! ([`halves`]).
+//! ([`Halves`]).
 //!
 //! Each edge keeps the end of its interval on the current row and its exact value there. A row adds
 //! the edge's `b`; then the end moves a pixel at a time, one addition each, until the value changes
@@ -13,8 +13,17 @@
 //! subtracting 1 from any other beforehand makes all of them `E >= 0`.
 
 mod rows;
+mod side;
 
-pub(crate) use rows::{Half, halves};
+pub(crate) use rows::{Half, Halves};
+
+/// How the edges of projected triangles are followed. On ARMv6-M a division is a call of 200 instructions, and
+/// a 64-bit shift or product one of 15 to 40.
+#[cfg(all(target_arch = "arm", not(target_has_atomic = "32")))]
+pub(crate) use side::Digital as ProjectedSide;
+#[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
+pub(crate) use side::Line as ProjectedSide;
+pub(crate) use side::{Short, Side};
 
 use crate::clip::{ClipEdges, HalfPlane};
 use crate::setup::Setup;

@@ -14,7 +14,7 @@ pub(crate) use quick::{GUARD_BAND, HOMOGENEOUS_BITS};
 pub use quick::{Quick, QuickPosition};
 pub use viewport::{Rect, Viewport, ViewportSize};
 
-use crate::math::{Scale, bits, high, low, shr_round, unsigned};
+use crate::math::{Scale, bits, high, low, shr_round, signed, unsigned};
 use fixed::types::I16F16;
 
 /// A point in clip space: `x / w` and `y / w` in `[-1, 1]` are on the screen, y up, and `z / w` is
@@ -98,6 +98,18 @@ pub trait Position: Copy + Send + core::fmt::Debug + PartialEq {
     /// `k w` in the units of `scale`, rounded as the grid rounds it.
     #[doc(hidden)]
     fn scaled_w(&self) -> i32;
+
+    /// The depth `z / w` of the vertex this position is of, Q31 below 1 and within 2^-28, where `0 <= z <= w`.
+    #[doc(hidden)]
+    fn depth(&self, vertex: &ClipVertex) -> Option<i32>;
+}
+
+/// `z / w`, Q31, from both in one scale with `w` in `[2^31, 2^32)`, and `2^63 / w`; below 1.
+#[inline]
+fn depth_from(z: u32, inverse: u32) -> i32 {
+    // The reciprocal is a unit or more below; with that unit, a depth that is a short fraction is exact.
+    let depth = high(u64::from(z) * u64::from(inverse) + u64::from(z));
+    signed(depth.min(unsigned(i32::MAX)))
 }
 
 /// An opaque positive real, for [`Position`].
@@ -131,7 +143,7 @@ pub enum Snapped {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex<T: Snap, const N: usize = 0, const P: usize = 0> {
     pub(crate) position: T::Position,
-    /// Clip-space z, raw Q16.16 shifted right by `shift`.
+    /// With [`Outside::RANGED`] the depth `z / w`, Q31; otherwise clip-space z, raw Q16.16 shifted right by `shift`.
     pub(crate) z: i32,
     pub(crate) shift: u8,
     pub(crate) outside: Outside,
@@ -206,6 +218,8 @@ impl Outside {
     pub(crate) const CLIPS: u16 = 0b1_1111_1110_0001;
     /// Not a bound: `z / w` is not within ±4, so depths of the triangle may cancel.
     pub(crate) const STEEP: u16 = 1 << 15;
+    /// Not a bound: `z / w` is in `[0, 1]`, and is what the vertex keeps. Only where a frame has depth.
+    pub(crate) const RANGED: u16 = 1 << 14;
 
     /// The outcodes of a vertex against the eye or hither plane, and the viewport's sides.
     #[inline]

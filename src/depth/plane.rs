@@ -1,20 +1,16 @@
 //! The depth of one triangle, as a linear function on the screen.
 //!
-//! Two ways lead to a row's first depth. Where all three vertices are projected and their depths are
-//! inside of the range, the plane is stepped from the first vertex ([`Gradient`]); that is nearly
-//! always. Otherwise it is the sum of the edge functions, weighted ([`Weights`]).
+//! Two ways lead to a row's first depth. Of a projected triangle with 16-bit depths that are inside of the range it is
+//! a [`Plane`] through the vertices ([`projected`]); that is nearly always. Otherwise it is the sum of the edge
+//! functions, weighted ([`DepthPlane`]).
 //!
-//! Error budget of the gradient for `N = 16`, in running units, 2^16 to a stored one:
-//! - a vertex's depth is rounded to a unit, from a scale within 2^-29: 2^3 of the range's 2^32;
-//! - the numerators of `dz/dx` and `dz/dy` are exact, up to 2^53; their scale is within 2^-28, and both are
-//!   rounded to 2^-9. Gradients are at most 2^30 a pixel, and a covered pixel is up to 1536 pixels away
-//!   from the vertex each way (the guard band and the viewport): 2^30 2^-28 1536 = 2^12.6 each. Steeper
-//!   ones are left to the weights;
-//! - a row's steps are rounded to whole units, up to 511 times: 2^8;
+//! Error budget of the plane, in running units, 2^16 to a stored one:
+//! - a vertex's depth is within 2^-28 of the range: 2^4;
+//! - the plane is off by less than 2^13 in boxes below 512 px, 2^15 where a triangle reaches the guard band's ends;
 //! - rounding to 16 bits adds 2^15.
 //!
-//! Together less than 2^15.6, so a stored depth is within a unit; and as vertices are inside of the
-//! range, with 2^15 to spare at both ends, so is every running value: none is tested.
+//! So a stored depth is within a unit; and as vertices are inside of the range, with 2^15 to spare at both ends, so is
+//! every running value: none is tested, and none wraps.
 //!
 //! Error budget of the weights for `N = 16` in the exact tier, in stored units of 2^16 running ones (after
 //! Rossignac, section 9.3.1: the running value carries the bits that its additions lose):
@@ -33,37 +29,26 @@
 //! steps are exact integers. Any other row is stored pixel by pixel, each saturated; no value
 //! wraps.
 
-use crate::math::{Factor, Scale, Signed, align, bits, combine, low, narrowed, shr_round};
-use crate::setup::Setup;
+use crate::math::{Factor, Scale, Signed, align, combine, low, narrowed, shr_round, unsigned};
+use crate::setup::{Plane, Setup, Slopes};
 use crate::span::Span;
-use crate::vertex::{Outside, Position, ScaleOf, Snap, Snapped, Vertex};
+use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 
-/// The depth of one triangle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum DepthPlane {
-    /// Stepped from a vertex.
-    Gradient(Gradient),
-    /// Summed from the edge functions.
-    Weighted(Weighted),
+/// The depth of a projected triangle whose depths are all inside of the range, in running units with the rounding in
+/// it; `None` where it is too steep.
+#[inline]
+pub(crate) fn projected<T: Snap, const N: usize, const P: usize>(
+    slopes: &Slopes,
+    vertices: [&Vertex<T, N, P>; 3],
+) -> Option<Plane> {
+    // Times 1 - 2^-16, Q31.
+    let [d0, d1, d2] = vertices.map(|v| v.z - (v.z >> 16));
+    slopes.plane((unsigned(d0) << 1).wrapping_add(1 << 15), [d1 - d0, d2 - d0])
 }
-
-/// A depth plane in running units times 2^[`FRACTION`], with the rounding to a stored depth in it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Gradient {
-    /// At the centre of pixel (0, 0).
-    at_origin: i64,
-    /// A pixel to the right.
-    x: i64,
-    /// A pixel down.
-    y: i64,
-}
-
-/// Bits of a gradient below a running unit.
-const FRACTION: u32 = 8;
 
 /// A depth plane by the edge functions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Weighted {
+pub(crate) struct DepthPlane {
     weights: Weights,
     /// Running units a pixel along a row.
     step: i64,
@@ -85,9 +70,6 @@ enum Weights {
 /// Each of three terms that are not summed exactly is at most `2^TERM_BITS` running units: 4 of the
 /// range.
 const TERM_BITS: i32 = 34;
-
-/// The largest gradient that is stepped from a vertex, in running units a pixel: a quarter of the range.
-const GENTLE: i64 = 1 << 30;
 
 /// No step that is taken is larger, in running units: the range.
 const STEEPEST: i64 = 1 << 32;
@@ -111,98 +93,8 @@ impl DepthPlane {
         bits: u32,
         outside: Outside,
     ) -> Self {
-        if let Some(gradient) = Gradient::new(setup, vertices, bits) {
-            return Self::Gradient(gradient);
-        }
-        Self::Weighted(Weighted::new(setup, vertices, bits, outside))
-    }
-
-    /// The run of a span.
-    #[inline]
-    pub(crate) fn run(&self, setup: &Setup, span: Span) -> DepthRun {
-        match self {
-            Self::Gradient(gradient) => gradient.run(span),
-            Self::Weighted(weighted) => weighted.run(setup, span),
-        }
-    }
-}
-
-impl Gradient {
-    /// The plane through three projected vertices, where it is exact enough: see the module.
-    #[inline]
-    fn new<T: Snap, const N: usize, const P: usize>(
-        setup: &Setup,
-        vertices: [&Vertex<T, N, P>; 3],
-        word_bits: u32,
-    ) -> Option<Self> {
-        if !setup.projected || word_bits > 16 {
-            return None;
-        }
-        let [d0, d1, d2] = vertices.map(|v| projected_depth(v, word_bits));
-        let (d0, d1, d2) = (d0?, d1?, d2?);
-        let Snapped::Projected { point: [px, py], subpixel_bits } = vertices[0].snapped() else {
-            return None;
-        };
-        // (sum (d_i - d_0) E_i) / D: 33 bits times 20, twice.
-        let slope = |[_, e1, e2]: [i64; 3]| {
-            let numerator = (d1 - d0) * e1 + (d2 - d0) * e2;
-            // setup.inverse is 2 / (D 2^S), and a pixel is 2^S of `e`.
-            let fraction = 2 * subpixel_bits + FRACTION - 1;
-            setup.inverse.apply(numerator, bits(fraction))
-        };
-        let (x, y) = (slope(setup.a), slope(setup.b));
-        let limit = GENTLE << FRACTION;
-        if x.abs() > limit || y.abs() > limit {
-            return None;
-        }
-        // From the vertex to the centre of pixel (0, 0), in subpixels of at most 2^18: below 2^60.
-        let half_pixel = 1 << (subpixel_bits - 1);
-        let back = x * i64::from(half_pixel - px) + y * i64::from(half_pixel - py);
-        let rounding = (1i64 << (32 - word_bits)) >> 1;
-        let at_origin = ((d0 + rounding) << FRACTION) + shr_round(back, subpixel_bits);
-        Some(Self { at_origin, x, y })
-    }
-
-    /// The run of a span: inside of the range, as the vertices are.
-    #[inline]
-    fn run(&self, span: Span) -> DepthRun {
-        let first = self.at_origin + self.x * i64::from(span.x0) + self.y * i64::from(span.y);
-        DepthRun { first: first >> FRACTION, step: shr_round(self.x, FRACTION), inside: true }
-    }
-}
-
-/// The depth `z / w` of a projected vertex in running units, if it is in the range.
-#[inline]
-fn projected_depth<T: Snap, const N: usize, const P: usize>(
-    v: &Vertex<T, N, P>,
-    word_bits: u32,
-) -> Option<i64> {
-    let ScaleOf(Scale { mantissa, exponent }) = v.position.scale();
-    // k w is a power of two, and z k / (k w) the depth: below 2^63 before it is shifted.
-    let halves = v.position.scaled_w().trailing_zeros();
-    let shift = u32::try_from(bits(halves) - 32 - exponent - i32::from(v.shift)).ok()?;
-    let product = i64::from(v.z) * i64::from(mantissa);
-    let depth = if shift < 63 { shr_round(product, shift) } else { 0 };
-    // Times 1 - 2^-bits.
-    let depth = depth - (depth >> word_bits);
-    let far = ((1i64 << word_bits) - 1) << (32 - word_bits);
-    (depth >= 0 && depth <= far).then_some(depth)
-}
-
-impl Weighted {
-    #[inline]
-    fn new<T: Snap, const N: usize, const P: usize>(
-        setup: &Setup,
-        vertices: [&Vertex<T, N, P>; 3],
-        bits: u32,
-        outside: Outside,
-    ) -> Self {
         let full = Scale::of(((1 << bits) - 1) << (32 - bits)).times(setup.inverse);
-        let values = vertices.map(|v| {
-            let ScaleOf(k) = v.position.scale();
-            let raw = Scale::power_of_two(i32::from(v.shift));
-            Signed::of(i64::from(v.z)).times(k).times(raw)
-        });
+        let values = vertices.map(scaled_z);
         let steps = setup.a.map(|a| a << setup.step);
         let (weights, step) = if outside.0 & Outside::STEEP == 0 {
             let values = values.map(|value| value.times(full));
@@ -220,9 +112,9 @@ impl Weighted {
         Self { weights, step, half: (1i64 << (32 - bits)) >> 1 }
     }
 
-    /// The run of a span. Not inlined: the spans of most triangles have a gradient.
+    /// The run of a span. Not inlined: few triangles are drawn by it.
     #[inline(never)]
-    fn run(&self, setup: &Setup, span: Span) -> DepthRun {
+    pub(crate) fn run(&self, setup: &Setup, span: Span) -> DepthRun {
         let edges = setup.edges_at(span.x0, span.y);
         let first = self.weights.apply(edges).saturating_add(self.half);
         let pixels = i64::from(span.x1 - 1 - span.x0);
@@ -230,6 +122,19 @@ impl Weighted {
         let fits = |v: i64| v >= 0 && v <= i64::from(u32::MAX);
         DepthRun { first, step: self.step, inside: fits(first) && fits(last) }
     }
+}
+
+/// `k z` of a vertex.
+#[inline]
+fn scaled_z<T: Snap, const N: usize, const P: usize>(v: &Vertex<T, N, P>) -> Signed {
+    if v.outside.0 & Outside::RANGED != 0 {
+        // z / w times k w.
+        let w = Scale::of(u64::from(v.position.scaled_w().unsigned_abs()));
+        return Signed::of(i64::from(v.z)).times(w).times(Scale::power_of_two(-31));
+    }
+    let ScaleOf(k) = v.position.scale();
+    let raw = Scale::power_of_two(i32::from(v.shift));
+    Signed::of(i64::from(v.z)).times(k).times(raw)
 }
 
 impl DepthRun {

@@ -3,9 +3,10 @@
 use super::{Frame, Outcome};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
-use crate::math::index;
+use crate::math::{SMALL_CORE, index};
 use crate::setup::{Outline, Tier};
-use crate::traversal::{Half, halves};
+use crate::traversal::{Halves, ProjectedSide, Short};
+use crate::vertex::Rect;
 use fixed::types::I16F16;
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
@@ -13,7 +14,8 @@ where
     C: Target,
     T: Tier,
 {
-    /// Fills a triangle of three projected vertices, which are clockwise on the screen or not.
+    /// Fills a triangle of three projected vertices, with corners in the target's subpixels that are clockwise on the
+    /// screen or not.
     #[inline]
     pub(super) fn fill_projected<F, const N: usize>(
         &mut self,
@@ -24,53 +26,58 @@ where
     where
         F: Fragment<C::Color, N>,
     {
-        let outline = Outline::new(corners, clockwise, T::SUBPIXEL_BITS);
+        let outline = Outline::new(corners, clockwise);
+        let window = self.window();
         let whole = outline.bounds(T::SUBPIXEL_BITS);
-        let (width, height) = self.target.size();
-        let visible = self.viewport.visible(width, height);
-        let bounds = whole.intersect(visible);
+        let bounds = whole.intersect(window);
         if bounds.is_empty() {
             return Outcome::OffScreen;
         }
-        let sample = Sample { x: bounds.x0, y: bounds.y0, varyings: [I16F16::ZERO; N] };
-        let color = fragment.shade(sample);
         let (left, top) = self.viewport.origin;
-        let inside = bounds == whole;
-        halves(&outline, bounds, left, T::SUBPIXEL_BITS, |y, half| {
-            let y = index(y + top);
-            if inside {
-                self.fill_half(y, half, color);
-            } else {
-                self.fill_clipped(y, half, [bounds.x0 + left, bounds.x1 + left], color);
-            }
-        });
+        let (x, y) = (bounds.x0 - left, bounds.y0 - top);
+        let color = fragment.shade(Sample { x, y, varyings: [I16F16::ZERO; N] });
+        if !SMALL_CORE && bounds == whole && Short::fits(&outline, T::SUBPIXEL_BITS) {
+            self.fill_short(&outline, bounds, color);
+        } else if bounds.x0 == whole.x0 && bounds.x1 == whole.x1 {
+            self.fill_long(&outline, bounds, color);
+        } else {
+            self.fill_clipped(&outline, bounds, color);
+        }
         Outcome::Drawn
     }
 
-    /// Fills rows of which all columns are inside of the target. The half is copied, so that it is kept
-    /// in registers.
-    #[inline(never)]
-    fn fill_half(&mut self, y: usize, half: &mut Half, color: C::Color) {
-        let mut own = *half;
-        self.target.fill_rows(y, own.by_ref().map(|(x0, x1)| (column(x0), column(x1))), color);
-        *half = own;
+    /// Fills a small triangle that is all inside of the target.
+    #[inline(always)]
+    fn fill_short(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
+        let bits = T::SUBPIXEL_BITS;
+        let outline = outline.moved(-bounds.x0, bits);
+        let mut halves = Halves::<Short>::new(&outline, bounds, bits);
+        while let Some((y, mut half)) = halves.next() {
+            self.target.fill_rows(index(bounds.x0), index(y), &mut half, color);
+            halves.resume(half);
+        }
     }
 
-    /// Fills what columns `x0 .. x1` of the target show of rows.
-    #[inline(never)]
-    fn fill_clipped(&mut self, y: usize, half: &mut Half, [x0, x1]: [i32; 2], color: C::Color) {
-        let runs = half.by_ref().map(|(from, to)| {
-            let from = from.max(x0);
-            (column(from), column(to.min(x1).max(from)))
-        });
-        self.target.fill_rows(y, runs, color);
+    /// Fills the rows of `bounds`, which has all columns.
+    #[inline(always)]
+    fn fill_long(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
+        let bits = T::SUBPIXEL_BITS;
+        let mut halves = Halves::<ProjectedSide>::new(outline, bounds, bits);
+        while let Some((y, mut half)) = halves.next() {
+            self.target.fill_rows(0, index(y), &mut half, color);
+            halves.resume(half);
+        }
     }
-}
 
-/// A column of the target, which the viewport has bounded; a column left of it becomes one that no
-/// row has.
-#[inline]
-#[expect(clippy::cast_sign_loss, reason = "positive, or beyond every row's end by intent")]
-const fn column(v: i32) -> usize {
-    v as usize
+    /// Fills what is inside of `bounds`.
+    #[inline(never)]
+    fn fill_clipped(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
+        let bits = T::SUBPIXEL_BITS;
+        let mut halves = Halves::<ProjectedSide>::new(outline, bounds, bits);
+        while let Some((y, mut half)) = halves.next() {
+            let runs = half.by_ref().map(|(x0, x1)| (x0.max(bounds.x0), x1.min(bounds.x1)));
+            self.target.fill_rows(0, index(y), runs, color);
+            halves.resume(half);
+        }
+    }
 }

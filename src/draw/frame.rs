@@ -6,7 +6,7 @@ use crate::depth::{Compare, DepthBuffer, DepthTest, DepthWord, NoDepth};
 use crate::framebuffer::{Framebuffer, Target};
 use crate::interpolation::Perspective;
 use crate::setup::Cull;
-use crate::vertex::{Exact, Viewport, ViewportSize};
+use crate::vertex::{Exact, Rect, Viewport, ViewportSize};
 use core::marker::PhantomData;
 
 /// A frame for an ST7789 or ILI9341 without depth: flat shapes.
@@ -51,7 +51,21 @@ pub struct Frame<C, D = NoDepth, W = NoHither, T = Exact, I = Perspective, const
     pub(super) planes: [Plane; P],
     pub(super) cull: Cull,
     pub(super) viewport: Viewport,
+    window: Window,
     knobs: PhantomData<(T, I)>,
+}
+
+/// What a target of some size shows of the viewport, in the target's pixels. Kept, as it is asked for with every
+/// triangle.
+#[derive(Clone, Copy, Debug)]
+struct Window {
+    size: (u32, u32),
+    rect: Rect,
+}
+
+impl Window {
+    /// Of no target: no triangle has asked yet.
+    const UNKNOWN: Self = Self { size: (0, 0), rect: Rect { x0: 0, y0: 0, x1: 0, y1: 0 } };
 }
 
 /// A frame with a depth buffer.
@@ -80,6 +94,7 @@ impl<C: Target> Frame<C> {
             planes: [],
             cull: Cull::Neither,
             viewport,
+            window: Window::UNKNOWN,
             knobs: PhantomData,
         }
     }
@@ -110,8 +125,7 @@ impl<C: Target, T, I, const P: usize> Frame<C, NoDepth, Hither, T, I, P> {
         depth: DepthBuffer<'_, W, O>,
     ) -> Result<WithDepth<'_, C, W, O, T, I, P>, DepthSize> {
         let target = self.target.size();
-        let (width, height) = depth.size();
-        let size = (width.unsigned_abs(), height.unsigned_abs());
+        let size = depth.size();
         if size == target {
             Ok(self.rebuild(|_, range| (depth, range)))
         } else {
@@ -134,6 +148,7 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
             planes: self.planes,
             cull: self.cull,
             viewport: self.viewport,
+            window: self.window,
             knobs: PhantomData,
         }
     }
@@ -163,6 +178,7 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
             planes,
             cull: self.cull,
             viewport: self.viewport,
+            window: self.window,
             knobs: PhantomData,
         }
     }
@@ -206,6 +222,19 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
     #[must_use]
     pub fn into_parts(self) -> (C, D) {
         (self.target, self.depth)
+    }
+}
+
+impl<C: Target, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
+    /// The part of the scissor that the target holds, in the target's pixels. [`Frame::target_mut`] may have put
+    /// another target in its place.
+    #[inline]
+    pub(super) fn window(&mut self) -> Rect {
+        let size = self.target.size();
+        if size != self.window.size {
+            self.window = Window { size, rect: self.viewport.window(size.0, size.1) };
+        }
+        self.window.rect
     }
 }
 

@@ -5,9 +5,9 @@ use crate::depth::{DepthPlane, DepthRun, DepthTest};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::{Target, run};
 use crate::interpolation::{BLOCK, Correction, Joint, Mode, Run, Varyings};
-use crate::setup::{Facing, Outline, Setup, Tier};
+use crate::setup::{Setup, Tier};
 use crate::span::Span;
-use crate::traversal::{ClipWalk, Spans, halves};
+use crate::traversal::{ClipWalk, Spans};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
@@ -49,28 +49,6 @@ where
         for span in Spans::new(setup, bounds, clip) {
             self.draw_span(setup, span, shading);
         }
-    }
-
-    /// Draws what a box shows of a projected triangle that no plane cuts.
-    #[inline(never)]
-    pub(super) fn draw_rows<F, const N: usize>(
-        &mut self,
-        setup: &Setup,
-        corners: &[[i32; 2]; 3],
-        bounds: Rect,
-        shading: &Shading<'_, F, N>,
-    ) where
-        F: Fragment<C::Color, N>,
-    {
-        let outline = Outline::new(corners, setup.facing == Facing::Back, T::SUBPIXEL_BITS);
-        halves(&outline, bounds, 0, T::SUBPIXEL_BITS, |first, half| {
-            for (y, (x0, x1)) in (first..).zip(half) {
-                let span = Span { y, x0: x0.max(bounds.x0), x1: x1.min(bounds.x1) };
-                if span.x0 < span.x1 {
-                    self.draw_span(setup, span, shading);
-                }
-            }
-        });
     }
 
     /// Draws a span.
@@ -166,7 +144,7 @@ where
     {
         match shading.varyings {
             None => self.draw_run(block, NoVaryings, depth, shading.fragment),
-            Some(Varyings::Weighted(v)) if v.is_divided() && I::EVERY == 1 => {
+            Some(v) if v.mode() == Mode::Divided && I::EVERY == 1 => {
                 self.draw_run(block, v.divided(setup, block), depth, shading.fragment);
             }
             Some(v) => {
@@ -206,7 +184,9 @@ where
             self.target.write(first, row, (0..length).map(|_| pixel(true)));
             return;
         }
-        let depths = self.depth.row(x0 + left, y + top, x1 - x0);
+        let Some(depths) = self.depth.row(first, row, length) else {
+            return;
+        };
         self.target.write_each(first, row, depths, |stored| {
             let passes = D::passes(running, stored);
             running = running.wrapping_add(step);
@@ -215,8 +195,29 @@ where
     }
 }
 
+/// How a run's pixels get their colours.
+pub(super) trait Pixels<C, F, const N: usize> {
+    /// The colour at this pixel, column `x` of row `y`.
+    fn color(&self, fragment: &F, x: i32, y: i32) -> C;
+
+    /// To the next pixel.
+    fn step(&mut self);
+}
+
+impl<C: Copy, F: Fragment<C, N>, R: Run<N>, const N: usize> Pixels<C, F, N> for R {
+    #[inline]
+    fn color(&self, fragment: &F, x: i32, y: i32) -> C {
+        fragment.shade(Sample { x, y, varyings: self.varyings() })
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        Run::step(self);
+    }
+}
+
 /// No varyings to step along.
-struct NoVaryings;
+pub(super) struct NoVaryings;
 
 impl<const N: usize> Run<N> for NoVaryings {
     #[inline]

@@ -36,6 +36,7 @@ fn extent(p: &ExactPosition, viewport: &Viewport) -> Extent {
 
 impl Tier for Exact {
     const SUBPIXEL_BITS: u32 = 0;
+    const APPROXIMATE: bool = false;
 
     #[inline]
     fn projected(_: [&ExactPosition; 3]) -> Option<[[i32; 2]; 3]> {
@@ -64,7 +65,6 @@ impl Tier for Exact {
             b: column(1),
             c: column(2),
             step: 1,
-            projected: false,
             facing,
             // sum(E_i w_i) = W H det.
             inverse: Scale::of(determinant.unsigned_abs())

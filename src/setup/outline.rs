@@ -8,16 +8,22 @@ use super::{Cull, Facing};
 use crate::vertex::Rect;
 use core::mem::swap;
 
-/// A corner on the subpixel grid, and the first row whose centre is not above it.
+/// A corner on the subpixel grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Corner {
     pub(crate) x: i32,
     pub(crate) y: i32,
-    pub(crate) row: i32,
 }
 
-/// The corners of a projected triangle from the top down, by rows: those of one row in any order, since
-/// there is no pixel centre between.
+impl Corner {
+    /// The first row whose centre is not above it.
+    #[inline]
+    pub(crate) const fn row(self, bits: u32) -> i32 {
+        first_centre(self.y, bits)
+    }
+}
+
+/// The corners of a projected triangle from the top down.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outline {
     pub(crate) corners: [Corner; 3],
@@ -60,20 +66,19 @@ pub(crate) const fn first_centre(v: i32, bits: u32) -> i32 {
 }
 
 impl Outline {
-    /// From corners in subpixels of `bits` bits, and the sign of their doubled area.
+    /// From corners in subpixels, and the sign of their doubled area.
     #[inline]
-    pub(crate) fn new(points: &[[i32; 2]; 3], clockwise: bool, bits: u32) -> Self {
-        let corner = |[x, y]: [i32; 2]| Corner { x, y, row: first_centre(y, bits) };
-        let [mut top, mut middle, mut bottom] = points.map(corner);
+    pub(crate) fn new(points: &[[i32; 2]; 3], clockwise: bool) -> Self {
+        let [mut top, mut middle, mut bottom] = points.map(|[x, y]| Corner { x, y });
         let mut turns_right = clockwise;
-        if middle.row < top.row {
+        if middle.y < top.y {
             swap(&mut top, &mut middle);
             turns_right = !turns_right;
         }
-        if bottom.row < middle.row {
+        if bottom.y < middle.y {
             swap(&mut middle, &mut bottom);
             turns_right = !turns_right;
-            if middle.row < top.row {
+            if middle.y < top.y {
                 swap(&mut top, &mut middle);
                 turns_right = !turns_right;
             }
@@ -81,15 +86,24 @@ impl Outline {
         Self { corners: [top, middle, bottom], turns_right }
     }
 
+    /// The same, whole pixels further to the right.
+    #[inline]
+    pub(crate) fn moved(mut self, columns: i32, bits: u32) -> Self {
+        for corner in &mut self.corners {
+            corner.x += columns << bits;
+        }
+        self
+    }
+
     /// The box of the pixel centres it may cover.
     #[inline]
     pub(crate) fn bounds(&self, bits: u32) -> Rect {
-        let [p, q, r] = &self.corners;
+        let [p, q, r] = self.corners;
         Rect {
             x0: first_centre(p.x.min(q.x).min(r.x), bits),
-            y0: p.row,
+            y0: p.row(bits),
             x1: first_centre(p.x.max(q.x).max(r.x), bits),
-            y1: r.row,
+            y1: r.row(bits),
         }
     }
 }

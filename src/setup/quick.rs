@@ -24,6 +24,7 @@ use crate::vertex::{GUARD_BAND, HOMOGENEOUS_BITS, Quick, QuickPosition, Rect, Vi
 
 impl<const BITS: u32> Tier for Quick<BITS> {
     const SUBPIXEL_BITS: u32 = BITS;
+    const APPROXIMATE: bool = true;
 
     #[inline]
     fn projected([p, q, r]: [&QuickPosition<BITS>; 3]) -> Option<[[i32; 2]; 3]> {
@@ -60,13 +61,12 @@ fn projected<const BITS: u32>(corners: &[[i32; 2]; 3]) -> Option<Setup> {
     let ((a0, b0, c0), (a1, b1, c1), (a2, b2, c2)) = (edge(q, r), edge(r, p), edge(p, q));
     // sum(k_i E_i) with k = 2^(S - 1) / w is 2^(S - 1) / w times the doubled area.
     let magnitude = Scale::of(area.unsigned_abs()).reciprocal();
-    let front = Outline::new(corners, clockwise, BITS).bounds(BITS);
+    let front = Outline::new(corners, clockwise).bounds(BITS);
     Some(Setup {
         a: [a0, a1, a2],
         b: [b0, b1, b2],
         c: [c0, c1, c2],
         step: BITS,
-        projected: true,
         facing,
         inverse: Scale { exponent: magnitude.exponent + 1 - bits(BITS), ..magnitude },
         bounds: [front, Rect { x0: 0, y0: 0, x1: 0, y1: 0 }],
@@ -100,7 +100,6 @@ fn mixed_setup<const BITS: u32>(
         b: column(1),
         c: column(2),
         step: 1,
-        projected: false,
         facing,
         inverse: Scale::of(lines.determinant.unsigned_abs()).reciprocal(),
         bounds: bounds(&extents, viewport),

@@ -6,8 +6,10 @@
 //! at most half a grid step off. So near and far vertices keep the same relative precision, and
 //! the largest coordinate is always in `(2^19, 2^20]`, unless all are 0.
 
-use super::{ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, shift_round, shift_to_fit};
-use crate::math::{Scale, bits, normalized, reciprocal_estimate, unsigned};
+use super::{
+    ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, depth_from, shift_round, shift_to_fit,
+};
+use crate::math::{Scale, bits, normalized, reciprocal, reciprocal_estimate, unsigned};
 
 /// The exact tier: homogeneous snap, coverage equal to exact rational arithmetic for every input on
 /// the grid, slivers, `w <= 0` and external triangles included.
@@ -107,6 +109,19 @@ impl Position for ExactPosition {
     #[inline]
     fn scaled_w(&self) -> i32 {
         self.w
+    }
+
+    #[inline]
+    fn depth(&self, vertex: &ClipVertex) -> Option<i32> {
+        let [_, _, z, w] = vertex.raw;
+        if z < 0 || z > w || self.w <= 0 {
+            return None;
+        }
+        // z in the units of the snapped w, whose top bit then is 31; to the left, as w is below that.
+        let (divisor, zeros) = normalized(unsigned(self.w));
+        let up = i32::from(self.shift) + i32::from(vertex.shift) + bits(zeros);
+        let z = unsigned(z) << (unsigned(up) & 31);
+        (z <= divisor).then(|| depth_from(z, reciprocal(divisor)))
     }
 }
 

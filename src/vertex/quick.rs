@@ -7,7 +7,9 @@
 //! triangle, so the edge that two triangles share is the same edge to the bit.
 
 use super::exact;
-use super::{ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, shift_round, shift_to_fit};
+use super::{
+    ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, depth_from, shift_round, shift_to_fit,
+};
 use crate::math::{SMALL_CORE, Scale, bits, high, low, normalized, reciprocal, unsigned};
 
 /// A quick tier with `BITS` subpixel bits: 4 or 8. Coverage is exact on the snapped vertices.
@@ -271,6 +273,17 @@ impl<const BITS: u32> Position for QuickPosition<BITS> {
     #[inline]
     fn scaled_w(&self) -> i32 {
         if self.projected { self.w / 2 } else { self.w }
+    }
+
+    #[inline]
+    fn depth(&self, vertex: &ClipVertex) -> Option<i32> {
+        let [_, _, z, w] = vertex.raw;
+        if z < 0 || z > w || !self.projected {
+            return None;
+        }
+        // See `projected`.
+        let zeros = i32::from(self.exponent) + i32::from(vertex.shift) + 64 - bits(BITS);
+        Some(depth_from(unsigned(z) << (unsigned(zeros) & 31), self.mantissa))
     }
 }
 

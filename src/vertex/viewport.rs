@@ -30,6 +30,12 @@ impl Rect {
         }
     }
 
+    /// The same, `x` columns to the right and `y` rows down.
+    #[inline]
+    pub(crate) const fn moved(self, x: i32, y: i32) -> Self {
+        Self { x0: self.x0 + x, y0: self.y0 + y, x1: self.x1 + x, y1: self.y1 + y }
+    }
+
     /// Whether it holds no pixel.
     #[inline]
     #[must_use]
@@ -119,13 +125,12 @@ impl Viewport {
         I16F16::from_bits((self.width << 16) / self.height)
     }
 
-    /// The part of the scissor that a `width x height` buffer holds, in the viewport's pixels.
-    #[inline]
-    pub(crate) fn visible(&self, width: u32, height: u32) -> Rect {
+    /// The part of the scissor that a `width x height` buffer holds, in the buffer's pixels.
+    pub(crate) fn window(&self, width: u32, height: u32) -> Rect {
         // An origin moves a side by at most 2^15; beyond 2^30 a target is as good as endless.
         let side = |v: u32| i32::try_from(v).unwrap_or(i32::MAX).min(1 << 30);
         let (x, y) = self.origin;
-        self.scissor.intersect(Rect { x0: -x, y0: -y, x1: side(width) - x, y1: side(height) - y })
+        self.scissor.moved(x, y).intersect(Rect { x0: 0, y0: 0, x1: side(width), y1: side(height) })
     }
 }
 
@@ -174,8 +179,9 @@ mod tests {
     #[test]
     fn a_band_sees_its_rows_only() {
         let band = Viewport::new(240, 240).unwrap().with_origin(0, -60);
-        assert_eq!(band.visible(240, 20), Rect { x0: 0, y0: 60, x1: 240, y1: 80 });
+        assert_eq!(band.window(240, 20), Rect { x0: 0, y0: 0, x1: 240, y1: 20 });
+        assert_eq!(band.window(100, 240), Rect { x0: 0, y0: 0, x1: 100, y1: 180 });
         let off = band.with_scissor(Rect { x0: -9, y0: 0, x1: 999, y1: 60 });
-        assert!(off.visible(240, 20).is_empty());
+        assert!(off.window(240, 20).is_empty());
     }
 }

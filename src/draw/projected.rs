@@ -1,0 +1,280 @@
+//! Projected triangles with depth or varyings that have planes: from corners to pixels, and nothing in between.
+
+use super::lanes::{self, Lanes, Word};
+use super::shade::{NoVaryings, Pixels};
+use super::{Frame, Outcome};
+use crate::clip::Hither;
+use crate::depth::{DepthTest, projected};
+use crate::fragment::Fragment;
+use crate::framebuffer::Target;
+use crate::interpolation::{
+    Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of,
+};
+use crate::math::{SMALL_CORE, index, unsigned};
+use crate::setup::{Outline, Plane, Slopes, Tier};
+use crate::span::Span;
+use crate::traversal::{Half, Halves, ProjectedSide, Short, Side};
+use crate::vertex::{Outside, Rect, Vertex};
+use core::hint::black_box;
+
+/// A projected triangle on its way to pixels, in the target's.
+struct Shape {
+    outline: Outline,
+    /// What may be covered of the window.
+    bounds: Rect,
+    depth: Plane,
+    /// All of it may be covered, and [`Short`] fits it; its outline is then counted from the box's left side.
+    small: bool,
+}
+
+/// Where a shape's rows are.
+struct Row<'a, F, S> {
+    frame: &'a mut F,
+    shape: &'a Shape,
+    half: Half<S>,
+    y: i32,
+}
+
+/// What a triangle's pixels are made from, a block of a row at a time.
+trait Rows<const N: usize> {
+    /// How the pixels of a block are made.
+    type Block;
+    /// What the next block of a row goes on from.
+    type Joint;
+
+    /// A row before its first block.
+    fn joint(&self, span: Span) -> Self::Joint;
+
+    /// The block at the start of what is left of a row, and how long it is.
+    fn block(&self, span: Span, joint: &mut Self::Joint) -> (Self::Block, i32);
+}
+
+impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
+where
+    C: Target,
+    D: DepthTest,
+    T: Tier,
+    I: Correction,
+{
+    /// Draws a triangle of three projected vertices that no plane cuts, if all it needs has planes; its doubled area is
+    /// not 0.
+    #[inline]
+    pub(super) fn shade_projected<F, const N: usize>(
+        &mut self,
+        corners: &[[i32; 2]; 3],
+        area: i64,
+        vertices: [&Vertex<T, N, P>; 3],
+        fragment: &F,
+    ) -> Option<Outcome>
+    where
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
+        let [a, b, c] = vertices.map(|v| v.outside.0);
+        if D::BITS > 16 || (D::BITS > 0 && a & b & c & Outside::RANGED == 0) {
+            return None;
+        }
+        let outline = Outline::new(corners, area > 0);
+        let whole = outline.bounds(T::SUBPIXEL_BITS);
+        let bounds = whole.intersect(self.window());
+        if bounds.is_empty() {
+            return Some(Outcome::OffScreen);
+        }
+        let slopes = Slopes::new(corners, area, whole, T::SUBPIXEL_BITS)?;
+        let depth = if D::BITS > 0 { projected(&slopes, vertices)? } else { Plane::default() };
+        let small = !SMALL_CORE && bounds == whole && Short::fits(&outline, T::SUBPIXEL_BITS);
+        let outline = if small { outline.moved(-bounds.x0, T::SUBPIXEL_BITS) } else { outline };
+        let shape = Shape { outline, bounds, depth, small };
+        match self.range.hither() {
+            Some(hither) if N > 0 => {
+                self.draw_varying(&shape, &slopes, vertices, hither, fragment)?;
+            }
+            _ => self.draw_shape(&shape, &NoVaryings, fragment),
+        }
+        Some(Outcome::Drawn)
+    }
+
+    /// Draws a shape with varyings, by the cheapest of what serves.
+    #[inline]
+    fn draw_varying<F, const N: usize>(
+        &mut self,
+        shape: &Shape,
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
+        hither: Hither,
+        fragment: &F,
+    ) -> Option<()>
+    where
+        F: Fragment<C::Color, N>,
+    {
+        let q = nearness_of(vertices, hither);
+        let tolerance = if I::EVERY > 1 { F::TOLERANCE } else { 0 };
+        if I::AFFINE || is_straight(vertices, q, tolerance) {
+            if let Some(lanes) = F::LANES.filter(|_| T::APPROXIMATE) {
+                if let Some(lanes) = Lanes::new(slopes, vertices, lanes) {
+                    self.draw_shape(shape, &lanes, fragment);
+                    return Some(());
+                }
+            }
+            self.draw_shape(shape, &Linear::new(slopes, vertices)?, fragment);
+        } else if I::EVERY > 1 {
+            let pieces =
+                Every::<_, I>(Pieces::new(slopes, vertices, q)?, core::marker::PhantomData);
+            self.draw_shape(shape, &pieces, fragment);
+        } else {
+            return None;
+        }
+        Some(())
+    }
+
+    /// Draws the pixels of a shape.
+    #[inline(always)]
+    fn draw_shape<F, R, const N: usize>(&mut self, shape: &Shape, rows: &R, fragment: &F)
+    where
+        F: Fragment<C::Color, N>,
+        R: Rows<N, Block: Pixels<C::Color, F, N>>,
+    {
+        if shape.small {
+            self.draw_halves::<Short, _, _, N>(shape, rows, fragment);
+        } else {
+            self.draw_halves::<ProjectedSide, _, _, N>(shape, rows, fragment);
+        }
+    }
+
+    /// Draws the pixels of a shape, whose edges are followed by `S`.
+    #[inline(never)]
+    fn draw_halves<S, F, R, const N: usize>(&mut self, shape: &Shape, rows: &R, fragment: &F)
+    where
+        S: Side,
+        F: Fragment<C::Color, N>,
+        R: Rows<N, Block: Pixels<C::Color, F, N>>,
+    {
+        let mut halves = Halves::<S>::new(&shape.outline, shape.bounds, T::SUBPIXEL_BITS);
+        while let Some((y, half)) = halves.next() {
+            let mut row = Row { frame: &mut *self, shape, half, y };
+            loop {
+                // What is behind this reference is read anew a row: the loop over pixels wants the registers.
+                let row = black_box(&mut row);
+                let Some((x0, x1)) = row.half.next() else {
+                    break;
+                };
+                let bounds = row.shape.bounds;
+                let (y, x0, x1) = if S::WINDOWED {
+                    (row.y, x0.max(bounds.x0), x1.min(bounds.x1))
+                } else {
+                    (row.y, bounds.x0 + x0, bounds.x0 + x1)
+                };
+                row.y += 1;
+                if x0 < x1 {
+                    row.frame.draw_row(Span { y, x0, x1 }, row.shape.depth, rows, fragment);
+                }
+            }
+            halves.resume(row.half);
+        }
+    }
+
+    /// Draws a row that is not empty, a block after the other.
+    #[inline(always)]
+    fn draw_row<F, R, const N: usize>(&mut self, span: Span, depth: Plane, rows: &R, fragment: &F)
+    where
+        F: Fragment<C::Color, N>,
+        R: Rows<N, Block: Pixels<C::Color, F, N>>,
+    {
+        let (left, top) = self.viewport.origin;
+        let mut running = depth.at(span.x0, span.y);
+        let mut joint = rows.joint(span);
+        let mut rest = span;
+        while rest.x0 < rest.x1 {
+            let (mut block, length) = rows.block(rest, &mut joint);
+            let (x, y) = (index(rest.x0), index(rest.y));
+            let mut column = rest.x0 - left;
+            let fragment = *fragment;
+            let mut pixel = move |passes: bool| {
+                let color = passes.then(|| block.color(&fragment, column, span.y - top));
+                block.step();
+                column += 1;
+                color
+            };
+            if D::BITS == 0 {
+                self.target.write(x, y, (0..length).map(move |_| pixel(true)));
+            } else {
+                let Some(depths) = self.depth.row(x, y, index(length)) else {
+                    return;
+                };
+                let mut at = running;
+                self.target.write_each(x, y, depths, move |stored| {
+                    let passes = D::passes(at, stored);
+                    at = at.wrapping_add(depth.x);
+                    pixel(passes)
+                });
+                running = running.wrapping_add(depth.x.wrapping_mul(unsigned(length)));
+            }
+            rest.x0 += length;
+        }
+    }
+}
+
+impl<const N: usize> Rows<N> for NoVaryings {
+    type Block = Self;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (Self, i32) {
+        (Self, span.x1 - span.x0)
+    }
+}
+
+impl<const N: usize> Rows<N> for Linear<N> {
+    type Block = Line<N>;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (Line<N>, i32) {
+        (self.line(span.x0, span.y), span.x1 - span.x0)
+    }
+}
+
+impl<const N: usize> Rows<N> for Lanes<N> {
+    type Block = Word;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (Word, i32) {
+        (self.word(span.x0, span.y), (span.x1 - span.x0).min(lanes::LENGTH))
+    }
+}
+
+/// Pieces of a correction's length.
+struct Every<R, I>(R, core::marker::PhantomData<I>);
+
+impl<I: Correction, const N: usize> Rows<N> for Every<Pieces<N>, I> {
+    type Block = Line<N>;
+    /// The values where the next piece begins.
+    type Joint = [i32; N];
+
+    #[inline]
+    fn joint(&self, span: Span) -> [i32; N] {
+        self.0.at(span.x0, span.y)
+    }
+
+    #[inline]
+    fn block(&self, span: Span, joint: &mut [i32; N]) -> (Line<N>, i32) {
+        let length = (span.x1 - span.x0).min(I::EVERY);
+        // To the first pixel of the next piece, or the last of this one.
+        let steps = if length < span.x1 - span.x0 { length } else { length - 1 };
+        let first = *joint;
+        if steps > 0 {
+            *joint = self.0.at(span.x0 + steps, span.y);
+        }
+        (Line::through(first, *joint, steps), length)
+    }
+}
