@@ -1,5 +1,6 @@
 //! What hither costs and how far off it is: counted on emulated machines, compared with references on the host.
 
+pub mod command;
 pub mod error;
 pub mod firmware;
 pub mod readme;
@@ -50,26 +51,36 @@ impl Figure {
         Ok(Self { isa, workload, tier, instructions, pixels, deviation })
     }
 
-    /// Instructions a unit of the workload.
+    /// How many units the workload has.
     #[must_use]
-    pub fn per_unit(&self) -> f64 {
-        let units = match self.workload.unit() {
+    pub fn units(&self) -> usize {
+        match self.workload.unit() {
             Unit::Pixel => self.pixels,
             Unit::Triangle => self.workload.triangles(),
             Unit::Frame => 1,
             Unit::Vertex => hither_scenes::workloads::SNAPPED,
-        };
-        self.instructions as f64 / units as f64
+        }
     }
 
-    /// [`per_unit`](Self::per_unit) as tables show it: two decimals a pixel, none a triangle or vertex, millions a frame.
+    /// Instructions a unit of the workload.
+    #[must_use]
+    pub fn per_unit(&self) -> f64 {
+        self.instructions as f64 / self.units() as f64
+    }
+
+    /// [`per_unit`](Self::per_unit) as tables show it.
     #[must_use]
     pub fn cost(&self) -> String {
-        match self.workload.unit() {
-            Unit::Pixel => format!("{:.2}", self.per_unit()),
-            Unit::Triangle | Unit::Vertex => format!("{:.0}", self.per_unit()),
-            Unit::Frame => format!("{:.3} M", self.per_unit() / 1e6),
-        }
+        cost(self.workload.unit(), self.per_unit())
+    }
+}
+
+/// Instructions a unit as tables show them: two decimals a pixel, none a triangle or vertex, millions a frame.
+fn cost(unit: Unit, per_unit: f64) -> String {
+    match unit {
+        Unit::Pixel => format!("{per_unit:.2}"),
+        Unit::Triangle | Unit::Vertex => format!("{per_unit:.0}"),
+        Unit::Frame => format!("{:.3} M", per_unit / 1e6),
     }
 }
 

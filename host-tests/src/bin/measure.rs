@@ -11,12 +11,13 @@
 
 use hither_examples::picture::target_folder;
 use hither_scenes::workloads::Workload;
-use host_tests::cross::{MACHINES, Machine, root, toolchain};
+use host_tests::cross::{MACHINES, Machine, toolchain};
+use host_tests::measure::command::{Documents, chosen, progress, tables};
 use host_tests::measure::error::references;
-use host_tests::measure::readme::{Block, blocks, compare, rewritten};
+use host_tests::measure::readme::blocks;
 use host_tests::measure::size::{FIRMWARES, ISAS, Size};
 use host_tests::measure::{Figure, TIERS, firmware, size, unit_name, write_csv};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use std::process::ExitCode;
 
 /// Where the tables of figures are.
@@ -27,14 +28,6 @@ struct Asked {
     machines: Vec<&'static Machine>,
     workloads: Vec<Workload>,
     documents: Documents,
-}
-
-/// What becomes of the tables in the documents.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Documents {
-    Leave,
-    Check,
-    Write,
 }
 
 fn main() -> ExitCode {
@@ -83,20 +76,6 @@ impl Asked {
     }
 }
 
-/// Those of `all` whose names are in a list.
-fn chosen<T>(
-    list: &str,
-    all: impl Iterator<Item = T> + Clone,
-    name: impl Fn(&T) -> &'static str,
-) -> Result<Vec<T>, String> {
-    let names: Vec<&str> = list.split(',').collect();
-    let known: Vec<&str> = all.clone().map(|item| name(&item)).collect();
-    match names.iter().find(|asked| !known.contains(asked)) {
-        Some(unknown) => Err(format!("{unknown} is not one of {}", known.join(", "))),
-        None => Ok(all.filter(|item| names.contains(&name(item))).collect()),
-    }
-}
-
 /// Measures what is asked for.
 fn measure(asked: &Asked) -> Result<(), String> {
     let sized: Vec<&Machine> = if asked.is_whole() {
@@ -120,7 +99,8 @@ fn measure(asked: &Asked) -> Result<(), String> {
     if asked.documents == Documents::Check {
         size::check_stack(&sizes)?;
     }
-    tables(asked.documents, &blocks(&figures, &sizes, &toolchain))
+    let blocks = blocks(&figures, &sizes, &toolchain);
+    tables("measure", asked.documents, &DOCUMENTS, &blocks)
 }
 
 /// Builds and runs everything.
@@ -130,7 +110,7 @@ fn collect(
     bar: &ProgressBar,
 ) -> Result<(Vec<Figure>, Vec<Size>), String> {
     bar.set_message("host: references");
-    let references = references();
+    let references = references(&Workload::ALL);
     bar.inc(1);
     let (mut figures, mut sizes) = (Vec::new(), Vec::new());
     for machine in &asked.machines {
@@ -153,13 +133,6 @@ fn collect(
         sizes.extend(size::measure(machine, || bar.inc(1))?);
     }
     Ok((figures, sizes))
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress(steps: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed} {msg}");
-    let bar = ProgressBar::new(steps);
-    style.map_or(bar.clone(), |style| bar.with_style(style))
 }
 
 /// Prints the figures.
@@ -193,29 +166,4 @@ fn print(figures: &[Figure], sizes: &[Size], toolchain: &str) {
     for Size { isa, workload, tier, flash, ram, stack } in sizes {
         println!("{isa:8} {workload:9} {tier:7} {flash:8} {ram:8} {stack:8}");
     }
-}
-
-/// Checks or writes the tables in the documents.
-fn tables(documents: Documents, blocks: &[Block]) -> Result<(), String> {
-    if documents == Documents::Leave {
-        return Ok(());
-    }
-    let mut compared = 0;
-    for name in DOCUMENTS {
-        let path = root().join(name);
-        let context = |error: &dyn std::fmt::Display| format!("{name}: {error}");
-        let text = std::fs::read_to_string(&path).map_err(|error| context(&error))?;
-        if documents == Documents::Write {
-            let text = rewritten(&text, blocks).map_err(|error| context(&error))?;
-            std::fs::write(&path, text).map_err(|error| context(&error))?;
-        } else {
-            compared += compare(&text, blocks).map_err(|error| {
-                context(&format!("{error}\n(`measure -- --write` writes the tables anew)"))
-            })?;
-        }
-    }
-    if documents == Documents::Check && compared < blocks.len() {
-        return Err(format!("{compared} tables of figures in {}", DOCUMENTS.join(" and ")));
-    }
-    Ok(())
 }

@@ -31,28 +31,18 @@ pub fn count(machine: &Machine) -> Result<Vec<Count>, String> {
 
 /// The counts that a firmware printed.
 fn parse(machine: &Machine, printed: &str) -> Result<Vec<Count>, String> {
-    let fault = |line: &str| format!("{}: the firmware printed {line:?}", machine.isa);
-    let (mut spins, mut counts) = (Vec::new(), Vec::new());
-    for line in printed.lines() {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        match words[..] {
-            ["spin", _, ticks] => {
-                spins.push(ticks.parse::<u64>().map_err(|_| fault(line))?);
-            }
-            [workload, tier, ticks, sum] => {
-                let find = || {
-                    let workload = Workload::ALL.into_iter().find(|w| w.name() == workload)?;
-                    let tier = TIERS.into_iter().find(|name| *name == tier)?;
-                    let instructions = instructions(machine, ticks.parse().ok()?);
-                    let sum = u32::from_str_radix(sum, 16).ok()?;
-                    Some(Count { isa: machine.isa, workload, tier, instructions, sum })
-                };
-                counts.push(find().ok_or_else(|| fault(line))?);
-            }
-            _ => return Err(fault(line)),
-        }
+    let mut counts = Vec::new();
+    for line in lines(machine, printed)? {
+        let count = || {
+            let [workload, tier, ticks, sum] = words(line)?;
+            let workload = Workload::ALL.into_iter().find(|w| w.name() == workload)?;
+            let tier = TIERS.into_iter().find(|name| *name == tier)?;
+            let instructions = instructions(machine, ticks.parse().ok()?);
+            let sum = u32::from_str_radix(sum, 16).ok()?;
+            Some(Count { isa: machine.isa, workload, tier, instructions, sum })
+        };
+        counts.push(count().ok_or_else(|| fault(machine, line))?);
     }
-    check_clock(machine, &spins)?;
     let expected = Workload::ALL.len() * TIERS.len();
     if counts.len() == expected {
         Ok(counts)
@@ -61,8 +51,33 @@ fn parse(machine: &Machine, printed: &str) -> Result<Vec<Count>, String> {
     }
 }
 
+/// The lines that a firmware printed, without its two spins, which say whether its clock counts instructions.
+pub(super) fn lines<'a>(machine: &Machine, printed: &'a str) -> Result<Vec<&'a str>, String> {
+    let (mut spins, mut rest) = (Vec::new(), Vec::new());
+    for line in printed.lines() {
+        match words(line) {
+            Some(["spin", _, ticks]) => {
+                spins.push(ticks.parse().map_err(|_| fault(machine, line))?);
+            }
+            _ => rest.push(line),
+        }
+    }
+    check_clock(machine, &spins)?;
+    Ok(rest)
+}
+
+/// A line that has this many words.
+pub(super) fn words<const N: usize>(line: &str) -> Option<[&str; N]> {
+    line.split_whitespace().collect::<Vec<_>>().try_into().ok()
+}
+
+/// What is said of a line that is not as it should be.
+pub(super) fn fault(machine: &Machine, line: &str) -> String {
+    format!("{}: the firmware printed {line:?}", machine.isa)
+}
+
 /// The nearest number of instructions to a number of ticks.
-fn instructions(machine: &Machine, ticks: u64) -> u64 {
+pub(super) fn instructions(machine: &Machine, ticks: u64) -> u64 {
     let (numerator, denominator) = machine.instructions_per_tick;
     (2 * ticks * numerator + denominator) / (2 * denominator)
 }
