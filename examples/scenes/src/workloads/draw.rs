@@ -71,7 +71,8 @@ fn ticks(clock: impl Fn() -> u32, work: impl FnOnce()) -> u32 {
 }
 
 /// The colour of a flat triangle: any but black, and another than its neighbours'.
-const fn face_color(number: usize) -> Rgb565 {
+#[must_use]
+pub const fn face_color(number: usize) -> Rgb565 {
     Rgb565((number as u16).wrapping_mul(40_503) | 1)
 }
 

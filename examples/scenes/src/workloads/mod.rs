@@ -22,8 +22,8 @@ mod texel;
 
 pub use corners::{Corner, DEPTH_ONE, corners};
 pub use draw::{
-    Buffers, CACHE, COLORS, COORDINATES, SNAPPED, TRIANGLES, draw, flat, flat_deep, gouraud, snap,
-    textured, to_be_snapped, torus_flat, torus_gouraud,
+    Buffers, CACHE, COLORS, COORDINATES, SNAPPED, TRIANGLES, draw, face_color, flat, flat_deep,
+    gouraud, snap, textured, to_be_snapped, torus_flat, torus_gouraud,
 };
 pub use texel::{TEXTURE, TEXTURE_SIDE, texel_of};
 
