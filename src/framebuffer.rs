@@ -45,10 +45,11 @@ pub trait Target {
     fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<Self::Color>>);
 
     /// Writes pixels of row `y` from column `x` on, one for each of `lanes`, all inside of the target:
-    /// what `color` makes of it. One counter for both is less than an iterator's two.
+    /// what `color` makes of it. One counter for both is less than an iterator's two, and one for `CHUNK` pixels less
+    /// than that, while all a chunk needs is in registers.
     #[doc(hidden)]
     #[inline]
-    fn write_each<L>(
+    fn write_each<L, const CHUNK: usize>(
         &mut self,
         x: usize,
         y: usize,
@@ -166,7 +167,7 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
     }
 
     #[inline(always)]
-    fn write_each<L>(
+    fn write_each<L, const CHUNK: usize>(
         &mut self,
         x: usize,
         y: usize,
@@ -183,18 +184,28 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
             }
         };
         let (mut words, mut lanes) = (words, lanes);
-        if lanes.len() >= PAIRED {
-            let (mut word_pairs, mut lane_pairs) =
-                (words.chunks_exact_mut(2), lanes.chunks_exact_mut(2));
-            for pair in (&mut word_pairs).zip(&mut lane_pairs) {
-                if let ([w0, w1], [l0, l1]) = pair {
-                    draw(w0, l0);
-                    draw(w1, l1);
+        const { assert!(CHUNK == 1 || CHUNK == 2 || CHUNK == 4, "chunks are of 1, 2 or 4 pixels") }
+        if CHUNK > 1 && lanes.len() >= UNROLLED {
+            let mut word_chunks = words.chunks_exact_mut(CHUNK);
+            let mut lane_chunks = lanes.chunks_exact_mut(CHUNK);
+            for (words, lanes) in (&mut word_chunks).zip(&mut lane_chunks) {
+                match (words, lanes) {
+                    ([w0, w1], [l0, l1]) => {
+                        draw(w0, l0);
+                        draw(w1, l1);
+                    }
+                    ([w0, w1, w2, w3], [l0, l1, l2, l3]) => {
+                        draw(w0, l0);
+                        draw(w1, l1);
+                        draw(w2, l2);
+                        draw(w3, l3);
+                    }
+                    _ => {}
                 }
                 // Nothing; but with it the loop is not unrolled further, which takes more registers than there are.
                 core::hint::black_box(());
             }
-            (words, lanes) = (word_pairs.into_remainder(), lane_pairs.into_remainder());
+            (words, lanes) = (word_chunks.into_remainder(), lane_chunks.into_remainder());
         }
         for (word, lane) in words.iter_mut().zip(lanes) {
             draw(word, lane);
@@ -236,8 +247,8 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
     }
 }
 
-/// Runs of this length are drawn by pairs, which takes less a pixel and more before and after.
-const PAIRED: usize = 8;
+/// Runs of this length are drawn by several pixels at a time, which takes less a pixel and more before and after.
+const UNROLLED: usize = 8;
 
 /// Fills a run of words, short ones without a loop.
 #[inline]

@@ -86,6 +86,23 @@ const fn seed() -> [u8; 128] {
 /// instructions there.
 pub(crate) const SMALL_CORE: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
 
+/// `a b`.
+#[inline]
+pub(crate) const fn product(a: i32, b: i32) -> i64 {
+    if SMALL_CORE { product_of_halves(a, b) } else { a as i64 * b as i64 }
+}
+
+/// [`product`] from four of 16 by 16 bits: 20 instructions on ARMv6-M for 40. No sum leaves 32 bits.
+#[inline]
+const fn product_of_halves(a: i32, b: i32) -> i64 {
+    let ([a1, a0], [b1, b0]) = ([a >> 16, a & 0xffff], [b >> 16, b & 0xffff]);
+    let low = unsigned(a0) * unsigned(b0);
+    let middle = a0 * b1 + signed(low >> 16);
+    let rest = a1 * b0 + (middle & 0xffff);
+    let high = a1 * b1 + (middle >> 16) + (rest >> 16);
+    (high as i64) << 32 | ((unsigned(rest) << 16) | (low & 0xffff)) as i64
+}
+
 /// `v` shifted left until its top bit is set, and by how much: 0 and at least 31 for 0.
 #[inline]
 pub(crate) fn normalized(v: u32) -> (u32, u32) {
@@ -362,6 +379,19 @@ mod tests {
             let exact = (1u64 << 48) / u64::from(m);
             assert!(exact.abs_diff(u64::from(x)) << 15 <= exact + (1 << 15), "{m}: {x}");
             assert!((1 << 16..1 << 17).contains(&x));
+        }
+    }
+
+    #[test]
+    fn products_of_halves_are_products() {
+        let ends =
+            [0, 1, -1, 0xffff, 0x1_0000, -0xffff, -0x1_0000, i32::MAX, i32::MIN, i32::MIN + 1];
+        let spread = (0..500).map(|i: i32| i.wrapping_mul(0x6789_abcd) >> (i % 31));
+        let all: std::vec::Vec<i32> = spread.chain(ends).collect();
+        for &a in &all {
+            for &b in &all {
+                assert_eq!(product_of_halves(a, b), i64::from(a) * i64::from(b), "{a} {b}");
+            }
         }
     }
 

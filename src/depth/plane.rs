@@ -35,12 +35,12 @@ use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 
 /// The depth of a projected triangle whose depths are all inside of the range, in running units with the rounding in
-/// it; `None` where it is too steep.
+/// it.
 #[inline]
 pub(crate) fn projected<T: Snap, const N: usize, const P: usize>(
     slopes: &Slopes,
     vertices: [&Vertex<T, N, P>; 3],
-) -> Option<Plane> {
+) -> Plane {
     // Times 1 - 2^-16, Q31.
     let [d0, d1, d2] = vertices.map(|v| v.z - (v.z >> 16));
     slopes.plane((unsigned(d0) << 1).wrapping_add(1 << 15), [d1 - d0, d2 - d0])

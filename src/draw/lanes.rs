@@ -49,7 +49,7 @@ impl<const N: usize> Lanes<N> {
             // u max 2^(32 - bits), and a difference in twice that: both below 2^32, and 2^31 in magnitude.
             let scale = ((1 << lane.bits) - 1) << (15 - lane.bits);
             let value = ((unsigned(u) * unsigned(scale)) << 1) + (1 << (31 - lane.bits));
-            *plane = slopes.plane(value, [(v - u) * scale, (w - u) * scale])?;
+            *plane = slopes.plane(value, [(v - u) * scale, (w - u) * scale]);
             let cut = 32 - lane.width;
             let step = ((bits(plane.x) >> (cut - 1)) + 1) >> 1;
             all.step = all.step.wrapping_add(unsigned(step) << lane.place);

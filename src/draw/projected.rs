@@ -81,7 +81,7 @@ where
             return Some(Outcome::OffScreen);
         }
         let slopes = Slopes::new(corners, area, whole, T::SUBPIXEL_BITS)?;
-        let depth = if D::BITS > 0 { projected(&slopes, vertices)? } else { Plane::default() };
+        let depth = if D::BITS > 0 { projected(&slopes, vertices) } else { Plane::default() };
         let small = !SMALL_CORE && bounds == whole && Short::fits(&outline, T::SUBPIXEL_BITS);
         let outline = if small { outline.moved(-bounds.x0, T::SUBPIXEL_BITS) } else { outline };
         let shape = Shape { outline, bounds, depth, small };
@@ -202,11 +202,16 @@ where
                     return;
                 };
                 let mut at = running;
-                self.target.write_each(x, y, depths, move |stored| {
+                let pixel = move |stored: &mut D::Word| {
                     let passes = D::passes(at, stored);
                     at = at.wrapping_add(depth.x);
                     pixel(passes)
-                });
+                };
+                if N == 0 {
+                    self.target.write_each::<_, 4>(x, y, depths, pixel);
+                } else {
+                    self.target.write_each::<_, 2>(x, y, depths, pixel);
+                }
                 running = running.wrapping_add(depth.x.wrapping_mul(unsigned(length)));
             }
             rest.x0 += length;

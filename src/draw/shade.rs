@@ -21,10 +21,13 @@ pub(super) struct Shading<'a, F, const N: usize> {
 }
 
 impl<F, const N: usize> Shading<'_, F, N> {
-    /// The depths of a run.
+    /// The depths of a run, where `D` keeps any.
     #[inline]
-    fn depths(&self, setup: &Setup, run: Span) -> DepthRun {
-        self.depth.map_or(DepthRun::NONE, |plane| plane.run(setup, run))
+    fn depths<D: DepthTest>(&self, setup: &Setup, run: Span) -> DepthRun {
+        match self.depth {
+            Some(plane) if D::BITS > 0 => plane.run(setup, run),
+            _ => DepthRun::NONE,
+        }
     }
 }
 
@@ -61,7 +64,7 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
-        if F::UNIFORM && shading.depth.is_none() && N == 0 {
+        if F::UNIFORM && D::BITS == 0 && N == 0 {
             self.fill(span, shading);
             return;
         }
@@ -104,8 +107,8 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
-        let depth = shading.depths(setup, block);
-        if depth.inside {
+        let depth = shading.depths::<D>(setup, block);
+        if D::BITS == 0 || depth.inside {
             self.draw_from(setup, block, depth, (more, joint), shading);
         } else {
             *joint = None;
@@ -125,7 +128,7 @@ where
         F: Fragment<C::Color, N>,
     {
         for pixel in block.blocks(1) {
-            let depth = shading.depths(setup, pixel);
+            let depth = shading.depths::<D>(setup, pixel);
             self.draw_from(setup, pixel, depth, (false, &mut None), shading);
         }
     }
@@ -187,7 +190,7 @@ where
         let Some(depths) = self.depth.row(first, row, length) else {
             return;
         };
-        self.target.write_each(first, row, depths, |stored| {
+        self.target.write_each::<_, 1>(first, row, depths, |stored| {
             let passes = D::passes(running, stored);
             running = running.wrapping_add(step);
             pixel(passes)

@@ -115,7 +115,7 @@ impl<const N: usize> Linear<N> {
         for (plane, [u, v, w]) in each.iter_mut().zip(raw(vertices)?) {
             // Half a step, for rounding to nearest.
             let value = unsigned((u << 8) + (1 << 7));
-            *plane = slopes.plane(value, [(v - u) << 7, (w - u) << 7])?;
+            *plane = slopes.plane(value, [(v - u) << 7, (w - u) << 7]);
         }
         Some(Self { each })
     }
@@ -136,14 +136,14 @@ impl<const N: usize> Pieces<N> {
         q: Nearness,
     ) -> Option<Self> {
         let [q0, q1, q2] = q.map(signed);
-        let q = slopes.plane(unsigned(q0), [(q1 - q0) >> 1, (q2 - q0) >> 1])?;
+        let q = slopes.plane(unsigned(q0), [(q1 - q0) >> 1, (q2 - q0) >> 1]);
         let mut pieces = Self { n: [Plane::default(); N], q, each: [Varying::default(); N] };
         let planes = pieces.n.iter_mut().zip(&mut pieces.each);
         for ((plane, varying), values) in planes.zip(raw(vertices)?) {
             *varying = Varying::new(values, [0; 3]);
             let [d1, d2] = varying.differences;
             let half = |d: i32, q: i32| low((i64::from(d) * i64::from(q)) >> 31);
-            *plane = slopes.plane(0, [half(d1, q1), half(d2, q2)])?;
+            *plane = slopes.plane(0, [half(d1, q1), half(d2, q2)]);
         }
         Some(pieces)
     }

@@ -6,41 +6,41 @@
 //! A value is a number modulo 2^32, in units that its owner chooses so that no covered pixel's value leaves the
 //! range: then sums of any multiples of the gradients are right, however large they are on the way.
 //!
-//! Bit budget and error, with `S` subpixel bits:
+//! Bit budget and error, with `S` subpixel bits, `2^lz D` in `[2^31, 2^32)` and `R` half its reciprocal, 31 bits:
 //!
 //! | value | bits |
 //! | --- | --- |
-//! | `d_i`, in units of 2 | 32 |
-//! | a gradient of `E_i` | 20 |
-//! | their products, summed | 52 |
-//! | a gradient `G 2^s`, of which `G` | 32 |
+//! | `d_i`, in units of 2, and `e_i 2^k`, a gradient of `E_i` | 31 and a sign |
+//! | `v = floor((d_1 e_1 2^k + d_2 e_2 2^k) / 2^32)` | 31 and a sign |
+//! | `G = floor(v R / 2^32)`, the function's gradient is `G 2^t` a pixel, `t = S + 3 + lz - k` | 30 and a sign |
+//! | `b`, a subpixel's part of both gradients | 30 and a sign |
 //!
-//! `G` is a product of 32 by 32 bits: the sum, cut to 32 bits, is off by a unit of which `G` takes at most one, the
-//! reciprocal by a part in 2^29, `G` by the floor: 2^2 + 2 units at most where all of `G`'s bits are used. In a
-//! box below `2^(n + 1)` pixels `s` is `8 - n`, so a covered pixel is off by less than `2 2^(n + 1) 6 2^s`: 2^13
-//! units for boxes below 512 px, 2^15 to the guard band's ends. `s` is 0 to 8: a steep function over a small
-//! triangle needs a large gradient, and a small one little precision. What is steeper has no plane.
+//! `v`'s floor is half a unit of `G`, `G`'s floor is one, the reciprocal is a part in 2^29.5 of at most 2^30 units: 3
+//! units of `2^t` in all. In a box below `2^(n + 1)` pixels `t` is `9 - n`, so a covered pixel is off by less than
+//! `2 2^(n + 1) 3 2^(9 - n)`, and `b`'s floor, a unit of `2^(t + 1)`: 2^13 units for boxes below 512 px, 2^15
+//! to the guard band's ends. `t` is 1 to 10: a steep function over a small triangle needs a large gradient, and a small
+//! one little precision. Where `e_i 2^k` does not fit, in a triangle that is a small part of a pixel wide, `t` is one
+//! more, and the function off by twice as much; where it does not even so, there is no plane.
 
 use super::doubled_area;
-use crate::math::{high, low, normalized, reciprocal, signed, unsigned};
+use crate::math::{high, low, normalized, product, reciprocal, signed, unsigned};
 use crate::vertex::Rect;
 
 /// What turns differences over a projected triangle into gradients.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slopes {
-    /// Of `E_1` and `E_2`, a subpixel to the right.
+    /// Of `E_1` and `E_2`, to the right, times `2^k`.
     across: [i32; 2],
-    /// A subpixel down.
+    /// Down.
     down: [i32; 2],
-    /// `2^63 / (D 2^zeros)`.
-    inverse: u32,
-    /// How far a numerator is shifted right.
-    shift: u32,
-    /// Gradients are multiples of `2^steep`.
+    /// `R`, with the sign of the area.
+    inverse: i32,
+    /// `t`: gradients are multiples of `2^steep`.
     steep: u32,
-    /// From vertex 0 to the centre of pixel (0, 0), in subpixels.
+    /// From vertex 0 to the centre of its pixel, times `2^31`.
     back: [i32; 2],
-    subpixel_bits: u32,
+    /// Vertex 0's pixel.
+    pixel: [i32; 2],
 }
 
 /// A linear function on the screen, modulo 2^32.
@@ -55,9 +55,9 @@ pub(crate) struct Plane {
 }
 
 impl Slopes {
-    /// Of a triangle with these corners in subpixels, its doubled area and its box; `None` where the area is too
-    /// small a part of a pixel.
-    #[inline]
+    /// Of a triangle with these corners in subpixels, its doubled area, and its box in pixels; `None` where the area is
+    /// too small for its length.
+    #[inline(always)]
     pub(crate) fn new(
         corners: &[[i32; 2]; 3],
         area: i64,
@@ -66,11 +66,8 @@ impl Slopes {
     ) -> Option<Self> {
         debug_assert_eq!(area, doubled_area(corners), "the area is not the corners'");
         let [p, q, r] = corners;
-        let clockwise = area > 0;
-        let oriented = |v: i32| if clockwise { v } else { -v };
-        let (across, down) = ([r[1] - p[1], p[1] - q[1]], [p[0] - r[0], q[0] - p[0]]);
         let magnitude = area.unsigned_abs();
-        // The top 32 bits: the area takes 38 at most.
+        // The top 32 bits, and 32 + lz: the area takes 38 at most.
         let (normal, zeros) = if high(magnitude) == 0 {
             let (normal, zeros) = normalized(unsigned(low(area.abs())));
             (normal, 32 + zeros)
@@ -78,40 +75,51 @@ impl Slopes {
             let zeros = magnitude.leading_zeros();
             (high(magnitude << zeros), zeros)
         };
+        let (across, down) = ([r[1] - p[1], p[1] - q[1]], [p[0] - r[0], q[0] - p[0]]);
+        let length = |v: i32| unsigned(v ^ v >> 31);
+        let longest = length(across[0]) | length(across[1]) | length(down[0]) | length(down[1]);
+        let (_, room) = normalized(longest);
         let size = unsigned(bounds.x1 - bounds.x0) | unsigned(bounds.y1 - bounds.y0);
         let (_, zeros_of_size) = normalized(size);
-        let steep = (8 + zeros_of_size).saturating_sub(31).min(subpixel_bits);
-        let shift = (30 + 32 + steep).checked_sub(subpixel_bits + zeros)?;
+        let usual = (8 + zeros_of_size).saturating_sub(31) + 1;
+        // So that the longest is below 2^31.
+        let steep = usual.max((subpixel_bits + 4 + zeros).saturating_sub(32 + room));
+        if steep > usual + 1 {
+            return None;
+        }
+        let up = (subpixel_bits + 3 + zeros).saturating_sub(32 + steep);
+        let inverse = signed(reciprocal(normal) >> 1);
         let half = 1 << (subpixel_bits - 1);
+        let fraction = |v: i32| v & ((1 << subpixel_bits) - 1);
         Some(Self {
-            across: across.map(oriented),
-            down: down.map(oriented),
-            inverse: reciprocal(normal),
-            shift,
+            across: across.map(|e| e << up),
+            down: down.map(|e| e << up),
+            inverse: if area < 0 { -inverse } else { inverse },
             steep,
-            back: [half - p[0], half - p[1]],
-            subpixel_bits,
+            back: [p[0], p[1]].map(|v| (half - fraction(v)) << (31 - subpixel_bits)),
+            pixel: [p[0] >> subpixel_bits, p[1] >> subpixel_bits],
         })
     }
 
     /// `G` of a gradient a pixel, where a difference's unit is 2 of the function's.
     #[inline]
-    fn gradient(&self, [d1, d2]: [i32; 2], [e1, e2]: [i32; 2]) -> Option<i32> {
-        let numerator = i64::from(d1) * i64::from(e1) + i64::from(d2) * i64::from(e2);
-        let numerator = i32::try_from(numerator >> (self.shift & 63)).ok()?;
-        Some(low((i64::from(numerator) * i64::from(self.inverse)) >> 32))
+    fn gradient(&self, [d1, d2]: [i32; 2], [e1, e2]: [i32; 2]) -> i32 {
+        let v = low((product(d1, e1) + product(d2, e2)) >> 32);
+        low(product(v, self.inverse) >> 32)
     }
 
-    /// The function that is `value` at vertex 0, and twice the differences more at the other two; `None` where it is
-    /// too steep.
+    /// The function that is `value` at vertex 0, and twice the differences more at the other two.
     #[inline]
-    pub(crate) fn plane(&self, value: u32, differences: [i32; 2]) -> Option<Plane> {
-        let x = self.gradient(differences, self.across)?;
-        let y = self.gradient(differences, self.down)?;
-        let back = i64::from(x) * i64::from(self.back[0]) + i64::from(y) * i64::from(self.back[1]);
-        let back = low(back >> (self.subpixel_bits - self.steep));
-        let gradient = |g: i32| unsigned(g) << self.steep;
-        Some(Plane { origin: value.wrapping_add_signed(back), x: gradient(x), y: gradient(y) })
+    pub(crate) fn plane(&self, value: u32, differences: [i32; 2]) -> Plane {
+        let x = self.gradient(differences, self.across);
+        let y = self.gradient(differences, self.down);
+        let back = low((product(x, self.back[0]) + product(y, self.back[1])) >> 32);
+        let [x, y] = [x, y].map(|gradient| unsigned(gradient) << self.steep);
+        let at_pixel = value.wrapping_add(unsigned(back) << (self.steep + 1));
+        let [column, row] = self.pixel.map(unsigned);
+        let across = x.wrapping_mul(column);
+        let origin = at_pixel.wrapping_sub(across).wrapping_sub(y.wrapping_mul(row));
+        Plane { origin, x, y }
     }
 }
 
@@ -147,7 +155,7 @@ mod tests {
         }
         let difference = |v: u32, u: u32| ((i64::from(v) - i64::from(u)) / 2) as i32;
         let differences = [difference(v[1], v[0]), difference(v[2], v[0])];
-        let plane = Slopes::new(&p, area, bounds, bits)?.plane(v[0], differences)?;
+        let plane = Slopes::new(&p, area, bounds, bits)?.plane(v[0], differences);
         let unit = f64::from(1 << bits);
         let at = |n: i32| (f64::from(n) + 0.5) * unit;
         let point = p.map(|p| p.map(f64::from));
