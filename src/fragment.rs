@@ -50,6 +50,10 @@ pub trait Fragment<C: Copy, const N: usize>: Copy {
     #[doc(hidden)]
     const LANES: Option<[Lane; N]> = None;
 
+    /// Whether only the fractions of varyings matter: then they are stepped as one word too, 16 bits each.
+    #[doc(hidden)]
+    const WRAPS: bool = false;
+
     /// The colour of such a word.
     #[doc(hidden)]
     #[inline]
@@ -144,6 +148,13 @@ where
     fn shade(&self, sample: Sample<2>) -> F::Color {
         let [u, v] = sample.varyings;
         self.0.nearest(u, v).unwrap_or_default()
+    }
+
+    const WRAPS: bool = true;
+
+    #[inline]
+    fn shade_lanes(&self, word: u32) -> F::Color {
+        self.0.nearest_of_fractions(word >> 16, word & 0xffff).unwrap_or_default()
     }
 }
 

@@ -31,7 +31,7 @@ use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
-pub(crate) use plane::{Line, Linear, Pieces, is_straight, nearness_of};
+pub(crate) use plane::{Line, Linear, Pieces, is_straight, nearness_of, wrapped};
 
 /// Pixels that are stepped from one exact start, where each is divided.
 pub(crate) const BLOCK: i32 = 64;
@@ -353,7 +353,8 @@ impl<const N: usize> Varyings<N> {
     }
 }
 
-/// `(last - first) / steps`, rounded towards minus infinity; 0 for a single pixel.
+/// `(last - first) / steps`, rounded towards 0, so that no sum of up to `steps` of it passes `last`; 0 for a single
+/// pixel.
 #[inline]
 fn per_pixel(last: i32, first: i32, steps: i32) -> i32 {
     /// `ceil(2^32 / n)` for n of 0 to 64; 0 and 1 are not looked up.
@@ -363,7 +364,8 @@ fn per_pixel(last: i32, first: i32, steps: i32) -> i32 {
         return if steps == 1 { saturate(difference) } else { 0 };
     }
     let inverse = INVERSE.get(crate::math::index(steps)).copied().unwrap_or(0);
-    low((difference * i64::from(inverse)) >> 32)
+    // The inverse is a little large, so the floor is below 0 for every negative difference.
+    low((difference * i64::from(inverse)) >> 32) + i32::from(difference < 0)
 }
 
 /// The table of [`per_pixel`].

@@ -56,20 +56,25 @@ impl<'a, F: PixelFormat> Texture<'a, F> {
     #[inline]
     #[must_use]
     pub fn nearest(&self, u: I16F16, v: I16F16) -> Option<F::Color> {
-        let column = texel(u, self.width);
-        let row = texel(v, self.height);
+        self.nearest_of_fractions(fraction(u), fraction(v))
+    }
+
+    /// The texel that holds coordinates in `[0, 1)`, Q16.
+    #[inline]
+    pub(crate) fn nearest_of_fractions(&self, u: u32, v: u32) -> Option<F::Color> {
+        let column = (u * self.width) >> 16;
+        let row = (v * self.height) >> 16;
         let at = row as usize * self.width as usize + column as usize;
         self.texels.get(at).map(|word| F::decode(*word))
     }
 }
 
-/// The texel of `0 .. side` that a coordinate falls in: its fraction times the side. Two's
-/// complement makes the fraction of a negative coordinate count from the next lower integer, which
-/// is what repeating means.
+/// The fraction of a coordinate, Q16. Two's complement makes that of a negative coordinate count from the next lower
+/// integer, which is what repeating means.
 #[inline]
 #[expect(clippy::cast_sign_loss, reason = "16 bits, masked")]
-fn texel(coordinate: I16F16, side: u32) -> u32 {
-    ((coordinate.to_bits() & 0xffff) as u32 * side) >> 16
+fn fraction(coordinate: I16F16) -> u32 {
+    (coordinate.to_bits() & 0xffff) as u32
 }
 
 /// A texture is not the size it is said to be.
@@ -103,7 +108,7 @@ mod tests {
 
     #[test]
     fn coordinates_repeat_both_ways() {
-        let at = |u: f64| texel(I16F16::from_num(u), 3);
+        let at = |u: f64| (fraction(I16F16::from_num(u)) * 3) >> 16;
         assert_eq!([0.0, 0.34, 0.99, 1.0, 5.5].map(at), [0, 1, 2, 0, 1]);
         assert_eq!([-0.01, -0.34, -0.99, -1.0].map(at), [2, 1, 0, 0]);
     }

@@ -24,11 +24,11 @@ pub(super) struct Lanes<const N: usize> {
     step: u32,
 }
 
-/// The lanes along a row.
+/// A word along a row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Word {
-    at: u32,
-    step: u32,
+    pub(super) at: u32,
+    pub(super) step: u32,
 }
 
 impl<const N: usize> Lanes<N> {
@@ -77,5 +77,134 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
     #[inline]
     fn step(&mut self) {
         self.at = self.at.wrapping_add(self.step);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        ClipVertex, Fragment, Frame, Framebuffer, Gouraud, Hither, I16F16, Outcome,
+        PerspectiveEvery, Quick, Rgb565, Snapped, Texture, Textured, Vertex,
+    };
+    use std::vec::Vec;
+
+    const SIDE: u32 = 128;
+
+    /// A triangle's pixels, and the varyings at their centres, linear on the screen, in `f64`: of those that are
+    /// surely inside.
+    fn drawn<F: Fragment<Rgb565, N>, const N: usize>(
+        corners: [([i32; 2], [I16F16; N]); 3],
+        fragment: &F,
+    ) -> Vec<(Rgb565, [f64; N])> {
+        let mut words = [0; (SIDE * SIDE) as usize];
+        let buffer = Framebuffer::<Rgb565>::try_new(&mut words, SIDE, SIDE).unwrap();
+        let hither = Hither::new(I16F16::ONE).unwrap();
+        let frame = Frame::new(buffer).unwrap().with_tier(Quick::<8>).with_hither(hither);
+        let mut frame = frame.with_correction(PerspectiveEvery::<16>);
+        let vertices: [Vertex<_, N>; 3] = corners.map(|([x, y], varyings)| {
+            let at = |v: i32| I16F16::from_bits(v << 9);
+            frame.snap(&ClipVertex::new(at(x), at(y), I16F16::ZERO, I16F16::ONE), varyings)
+        });
+        let [a, b, c] = &vertices;
+        let outcome = frame.draw_snapped([a, b, c], fragment);
+        assert!(matches!(outcome, Outcome::Drawn | Outcome::OffScreen | Outcome::ZeroArea));
+        let points = vertices.map(|v| match v.snapped() {
+            Snapped::Projected { point, .. } => point.map(|v| f64::from(v) / 256.0),
+            Snapped::Homogeneous { .. } => panic!("not projected"),
+        });
+        let cross = |o: [f64; 2], a: [f64; 2], b: [f64; 2]| {
+            (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
+        };
+        let [p, q, r] = points;
+        let area = cross(p, q, r);
+        let mut pixels = Vec::new();
+        for y in 0..SIDE {
+            for x in 0..SIDE {
+                let at = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+                let weights = [cross(at, q, r), cross(at, r, p), cross(at, p, q)].map(|w| w / area);
+                if weights.iter().all(|&w| w > 1e-3) {
+                    let value = |i: usize| {
+                        let of = |k: usize| corners[k].1[i].to_num::<f64>() * weights[k];
+                        of(0) + of(1) + of(2)
+                    };
+                    let color = frame.target().pixel(x, y).unwrap();
+                    pixels.push((color, core::array::from_fn(value)));
+                }
+            }
+        }
+        pixels
+    }
+
+    /// Corners in 2^-7 of half the screen, of triangles of all sizes, some of them thin.
+    fn corners(i: u32, mut below: impl FnMut(i32) -> i32) -> [[i32; 2]; 3] {
+        let reach = 8 << (i % 5);
+        let at = [0, 1].map(|_| below(256) - 128);
+        let mut p =
+            [[0; 2]; 3].map(|_| at.map(|at| (at + below(2 * reach) - reach).clamp(-128, 127)));
+        if i % 4 == 0 {
+            p[2] = [p[1][0] + below(3) - 1, p[1][1] + 1];
+        }
+        p
+    }
+
+    fn random() -> impl FnMut(i32) -> i32 {
+        let mut state = 5u64;
+        move |n| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            ((state >> 33) % u64::from(n.unsigned_abs())) as i32
+        }
+    }
+
+    #[test]
+    fn colours_are_within_a_step_of_the_plane() {
+        let (mut below, mut count, mut worst) = (random(), 0, 0.0f64);
+        for i in 0..800 {
+            let points = corners(i, &mut below);
+            let corners = points.map(|point| {
+                let channel = [0; 3].map(|_| match below(4) {
+                    0 => I16F16::ZERO,
+                    1 => I16F16::ONE,
+                    _ => I16F16::from_bits(below(65_537)),
+                });
+                (point, channel)
+            });
+            for (color, [r, g, b]) in drawn(corners, &Gouraud) {
+                for (got, exact) in
+                    [(color.r(), 31.0 * r), (color.g(), 63.0 * g), (color.b(), 31.0 * b)]
+                {
+                    worst = worst.max((f64::from(got) - exact).abs());
+                }
+                count += 1;
+            }
+        }
+        assert!(count > 100_000, "{count} pixels");
+        assert!(worst < 1.0 && worst > 0.5, "{worst} steps");
+    }
+
+    /// Texture coordinates far outside of `[0, 1]` and of both signs, on the fractions alone.
+    #[test]
+    fn wrapped_coordinates_find_their_texels() {
+        let texels: Vec<u16> = (0..64 * 32).collect();
+        let texture = Texture::<Rgb565>::try_new(&texels, 64, 32).unwrap();
+        let (mut below, mut count) = (random(), 0);
+        for i in 0..400 {
+            let points = corners(i, &mut below);
+            let corners = points.map(|point| {
+                let repeats = 1 << (16 + i % 6);
+                (point, [0; 2].map(|_| I16F16::from_bits(below(2 * repeats) - repeats)))
+            });
+            for (color, [u, v]) in drawn(corners, &Textured(texture)) {
+                // Within an eighth of a texel of a side of 64.
+                let near = |got: u32, exact: f64, side: f64| {
+                    let off = (f64::from(got) + 0.5 - exact * side).rem_euclid(side);
+                    off.min(side - off) < 0.5 + side / 512.0
+                };
+                let (column, row) = (u32::from(color.0) % 64, u32::from(color.0) / 64);
+                assert!(near(column, u, 64.0), "{column} for {u}: {corners:?}");
+                assert!(near(row, v, 32.0), "{row} for {v}: {corners:?}");
+                count += 1;
+            }
+        }
+        assert!(count > 60_000, "{count} pixels");
     }
 }

@@ -8,7 +8,7 @@ use crate::depth::{DepthTest, projected};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{
-    Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of,
+    Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of, wrapped,
 };
 use crate::math::{SMALL_CORE, index, unsigned};
 use crate::setup::{Outline, Plane, Slopes, Tier};
@@ -16,6 +16,7 @@ use crate::span::Span;
 use crate::traversal::{Half, Halves, ProjectedSide, Short, Side};
 use crate::vertex::{Outside, Rect, Vertex};
 use core::hint::black_box;
+use core::marker::PhantomData;
 
 /// A projected triangle on its way to pixels, in the target's.
 struct Shape {
@@ -116,11 +117,19 @@ where
                     return Some(());
                 }
             }
-            self.draw_shape(shape, &Linear::new(slopes, vertices)?, fragment);
+            let linear = Linear::new(slopes, vertices)?;
+            if F::WRAPS && T::APPROXIMATE {
+                self.draw_shape(shape, &Wrapped(linear), fragment);
+            } else {
+                self.draw_shape(shape, &linear, fragment);
+            }
         } else if I::EVERY > 1 {
-            let pieces =
-                Every::<_, I>(Pieces::new(slopes, vertices, q)?, core::marker::PhantomData);
-            self.draw_shape(shape, &pieces, fragment);
+            let pieces = Every::<_, I>(Pieces::new(slopes, vertices, q)?, PhantomData);
+            if F::WRAPS && T::APPROXIMATE {
+                self.draw_shape(shape, &Wrapped(pieces), fragment);
+            } else {
+                self.draw_shape(shape, &pieces, fragment);
+            }
         } else {
             return None;
         }
@@ -258,8 +267,68 @@ impl<const N: usize> Rows<N> for Lanes<N> {
     }
 }
 
+/// Varyings of which only the fractions matter, in one word.
+struct Wrapped<R>(R);
+
+/// Pixels that are stepped from one start where steps are rounded to a raw one: 2^-12 at most.
+const WRAPPED: i32 = 32;
+
+impl<const N: usize> Rows<N> for Wrapped<Linear<N>> {
+    type Block = Word;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (Word, i32) {
+        let [at, step] = self.0.wrapped(span.x0, span.y);
+        (Word { at, step }, (span.x1 - span.x0).min(WRAPPED))
+    }
+}
+
 /// Pieces of a correction's length.
-struct Every<R, I>(R, core::marker::PhantomData<I>);
+struct Every<R, I>(R, PhantomData<I>);
+
+/// A piece: raw values at its first pixel and `steps` further.
+struct Piece<const N: usize> {
+    first: [i32; N],
+    last: [i32; N],
+    steps: i32,
+    length: i32,
+}
+
+impl<I: Correction, const N: usize> Every<Pieces<N>, I> {
+    /// The piece at the start of what is left of a row; `joint` has the values there, and then those of the next.
+    #[inline]
+    fn piece(&self, span: Span, joint: &mut [i32; N]) -> Piece<N> {
+        let length = (span.x1 - span.x0).min(I::EVERY);
+        // To the first pixel of the next piece, or the last of this one.
+        let steps = if length < span.x1 - span.x0 { length } else { length - 1 };
+        let first = *joint;
+        if steps > 0 {
+            *joint = self.0.at(span.x0 + steps, span.y);
+        }
+        Piece { first, last: *joint, steps, length }
+    }
+}
+
+impl<I: Correction, const N: usize> Rows<N> for Wrapped<Every<Pieces<N>, I>> {
+    type Block = Word;
+    type Joint = [i32; N];
+
+    #[inline]
+    fn joint(&self, span: Span) -> [i32; N] {
+        self.0.joint(span)
+    }
+
+    #[inline]
+    fn block(&self, span: Span, joint: &mut [i32; N]) -> (Word, i32) {
+        let Piece { first, last, steps, length } = self.0.piece(span, joint);
+        let [at, step] = wrapped(first, last, steps);
+        (Word { at, step }, length)
+    }
+}
 
 impl<I: Correction, const N: usize> Rows<N> for Every<Pieces<N>, I> {
     type Block = Line<N>;
@@ -273,13 +342,7 @@ impl<I: Correction, const N: usize> Rows<N> for Every<Pieces<N>, I> {
 
     #[inline]
     fn block(&self, span: Span, joint: &mut [i32; N]) -> (Line<N>, i32) {
-        let length = (span.x1 - span.x0).min(I::EVERY);
-        // To the first pixel of the next piece, or the last of this one.
-        let steps = if length < span.x1 - span.x0 { length } else { length - 1 };
-        let first = *joint;
-        if steps > 0 {
-            *joint = self.0.at(span.x0 + steps, span.y);
-        }
-        (Line::through(first, *joint, steps), length)
+        let Piece { first, last, steps, length } = self.piece(span, joint);
+        (Line::through(first, last, steps), length)
     }
 }

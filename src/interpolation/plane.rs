@@ -9,12 +9,12 @@
 //! that, as gradients of `[0, 1]` over a box of `2^n` pixels are `2^(24 - n)`, far from the 2^32 that are there.
 //!
 //! Pieces have planes for `q = h / w` and the numerators `n = (u - u_0) q`, Q30, both at most 1 in magnitude: off by
-//! less than 2^13 2^-30 = 2^-17, divided by `q` at the ends of a piece. A value between is on the line through
-//! both ends, to a 2^-8 of a raw step a pixel.
+//! less than 2^13 2^-30 = 2^-17, divided by `q` at the ends of a piece, and kept between the vertices' values. A
+//! value between is on the line through both ends, to a 2^-8 of a raw step a pixel.
 
-use super::{Inverse, ONE, Run, Varying, per_pixel};
+use super::{ONE, Run, per_pixel};
 use crate::clip::Hither;
-use crate::math::{bits, low, signed, unsigned};
+use crate::math::{bits, low, normalized, product, reciprocal, signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
@@ -38,9 +38,46 @@ pub(crate) struct Line<const N: usize> {
 /// Perspective, divided at the ends of pieces of `every` pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pieces<const N: usize> {
-    n: [Plane; N],
     q: Plane,
-    each: [Varying; N],
+    each: [Numerator; N],
+}
+
+/// One varying of [`Pieces`].
+#[derive(Clone, Copy, Debug, Default)]
+struct Numerator {
+    /// `(u - u_0) q`, Q30 in units of `2^exponent` raw steps.
+    n: Plane,
+    /// `u_0`, raw.
+    base: i32,
+    /// 0 to 25: no difference is larger.
+    exponent: u32,
+    /// What quotients are between: the least and the largest difference, or 0. Q29 in the same units.
+    limits: [i32; 2],
+}
+
+impl Numerator {
+    /// Of a varying's raw values, and `q` at vertices 1 and 2.
+    #[inline]
+    fn new(slopes: &Slopes, [u, v, w]: [i32; 3], q: [i32; 2]) -> Self {
+        let differences = [v - u, w - u];
+        let [d1, d2] = differences.map(|d| unsigned(d ^ d >> 31));
+        // Below 2^24.
+        let (_, zeros) = normalized(d1 | d2 | 1);
+        let exponent = 32 - zeros;
+        let [d1, d2] = differences.map(|d| d << (30 - exponent));
+        let half = |d: i32, q: i32| low(product(d, q) >> 31);
+        let n = slopes.plane(0, [half(d1, q[0]), half(d2, q[1])]);
+        let limits = [d1.min(d2).min(0) >> 1, (d1.max(d2).max(0) + 1) >> 1];
+        Self { n, base: u, exponent, limits }
+    }
+
+    /// The value for a quotient, Q29: raw.
+    #[inline]
+    fn value(&self, quotient: i32) -> i32 {
+        let [low, high] = self.limits;
+        let quotient = quotient.max(low).min(high);
+        self.base + (((quotient >> (28 - self.exponent)) + 1) >> 1)
+    }
 }
 
 /// `h / w` at the three vertices, Q30.
@@ -120,6 +157,14 @@ impl<const N: usize> Linear<N> {
         Some(Self { each })
     }
 
+    /// The values at a pixel and their steps, modulo 1, in one word: see [`word`].
+    #[inline]
+    pub(crate) fn wrapped(&self, x: i32, y: i32) -> [u32; 2] {
+        let at = self.each.map(|plane| plane.signed_at(x, y) >> 8);
+        let step = self.each.map(|plane| (signed(plane.x) + (1 << 7)) >> 8);
+        [word(at), word(step)]
+    }
+
     /// The values from a pixel on.
     #[inline]
     pub(crate) fn line(&self, x: i32, y: i32) -> Line<N> {
@@ -137,25 +182,26 @@ impl<const N: usize> Pieces<N> {
     ) -> Option<Self> {
         let [q0, q1, q2] = q.map(signed);
         let q = slopes.plane(unsigned(q0), [(q1 - q0) >> 1, (q2 - q0) >> 1]);
-        let mut pieces = Self { n: [Plane::default(); N], q, each: [Varying::default(); N] };
-        let planes = pieces.n.iter_mut().zip(&mut pieces.each);
-        for ((plane, varying), values) in planes.zip(raw(vertices)?) {
-            *varying = Varying::new(values, [0; 3]);
-            let [d1, d2] = varying.differences;
-            let half = |d: i32, q: i32| low((i64::from(d) * i64::from(q)) >> 31);
-            *plane = slopes.plane(0, [half(d1, q1), half(d2, q2)]);
+        let mut pieces = Self { q, each: [Numerator::default(); N] };
+        for (numerator, values) in pieces.each.iter_mut().zip(raw(vertices)?) {
+            *numerator = Numerator::new(slopes, values, [q1, q2]);
         }
         Some(pieces)
     }
 
-    /// The values at a covered pixel, raw.
-    #[inline]
+    /// The values at a covered pixel, raw. Where `q` is within what its plane is off, they are any between the
+    /// vertices'.
+    #[inline(never)]
     pub(crate) fn at(&self, x: i32, y: i32) -> [i32; N] {
-        let inverse = Inverse::new(self.q.signed_at(x, y));
+        let q = unsigned(self.q.signed_at(x, y).max(1));
+        let (normal, zeros) = normalized(q);
+        // 2^62 / (q 2^zeros), 31 bits.
+        let inverse = signed(reciprocal(normal) >> 1);
         let mut values = [0; N];
-        for ((value, plane), varying) in values.iter_mut().zip(&self.n).zip(&self.each) {
-            let quotient = varying.limited(inverse.quotient(plane.signed_at(x, y)));
-            *value = varying.value(quotient).to_bits();
+        for (value, numerator) in values.iter_mut().zip(&self.each) {
+            // |n| <= q.
+            let n = numerator.n.signed_at(x, y).wrapping_shl(zeros.wrapping_sub(1));
+            *value = numerator.value(low(product(n, inverse) >> 32));
         }
         values
     }
@@ -175,6 +221,23 @@ impl<const N: usize> Line<N> {
         }
         line
     }
+}
+
+/// Raw values modulo 1, 16 bits each, the first highest. Sums of such words are words of sums, but for a carry from one
+/// to the next: 2^-16.
+#[inline]
+pub(crate) fn word<const N: usize>(values: [i32; N]) -> u32 {
+    values.iter().fold(0, |word: u32, &value| (word << 16).wrapping_add_signed(value))
+}
+
+/// The word of a pixel's values, and its step to those `steps` pixels on, 0 to 64.
+#[inline]
+pub(crate) fn wrapped<const N: usize>(first: [i32; N], last: [i32; N], steps: i32) -> [u32; 2] {
+    let mut step = [0; N];
+    for ((step, first), last) in step.iter_mut().zip(first).zip(last) {
+        *step = per_pixel(last, first, steps);
+    }
+    [word(first), word(step)]
 }
 
 impl<const N: usize> Run<N> for Line<N> {

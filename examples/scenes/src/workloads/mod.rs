@@ -59,12 +59,12 @@ impl Preset for Exact {
 
 impl Preset for Quick<4> {
     const NAME: &'static str = "quick4";
-    type Correction = PerspectiveEvery<16>;
+    type Correction = PerspectiveEvery<8>;
 }
 
 impl Preset for Quick<8> {
     const NAME: &'static str = "quick8";
-    type Correction = PerspectiveEvery<16>;
+    type Correction = PerspectiveEvery<8>;
 }
 
 /// A workload; see the [module](self).
