@@ -5,6 +5,7 @@ mod frame;
 mod lanes;
 mod projected;
 mod shade;
+mod shape;
 
 pub use frame::{DepthFrame, DepthSize, DisplayFrame, Frame};
 
@@ -14,12 +15,13 @@ use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates, Varyings};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
-use crate::setup::{Part, Setup, Tier, doubled_area, shows};
+use crate::setup::{Outline, Part, Setup, Slopes, Tier, doubled_area, shows};
 use crate::traversal::ClipWalk;
 use crate::vertex::{ClipVertex, Distance, Outside, Position, Rect, Vertex};
 use core::slice::from_mut;
 use fixed::types::I16F16;
 use shade::Shading;
+use shape::Shape;
 
 /// What became of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -178,7 +180,7 @@ where
             return outcome;
         }
         let cut = self.cuts::<N>(a | b | c);
-        if let Some(outcome) = self.draw_projected(vertices, cut, fragment) {
+        if let Some(outcome) = self.draw_projected(vertices, a | b | c, fragment) {
             return outcome;
         }
         // By reference: it is large.
@@ -228,7 +230,7 @@ where
     fn draw_projected<F, const N: usize>(
         &mut self,
         vertices: [&Vertex<T, N, P>; 3],
-        cut: bool,
+        any: u16,
         fragment: &F,
     ) -> Option<Outcome>
     where
@@ -243,14 +245,25 @@ where
             Some(false) => return Some(Outcome::Culled),
             Some(true) => {}
         }
-        if cut {
+        if self.cuts::<N>(any) {
             return None;
         }
         let corners = self.in_target(corners);
-        if F::UNIFORM && D::BITS == 0 && N == 0 {
-            return Some(self.fill_projected(&corners, area > 0, fragment));
+        let outline = Outline::new(&corners, area > 0);
+        let whole = outline.bounds(T::SUBPIXEL_BITS);
+        // Corners inside of the viewport need no more than a look at their box.
+        let inside = any & Outside::SIDES == 0 && self.shows_all();
+        let bounds = if inside { whole } else { whole.intersect(self.window()) };
+        if bounds.is_empty() {
+            return Some(Outcome::OffScreen);
         }
-        self.shade_projected(&corners, area, vertices, fragment)
+        let shape = Shape::new(outline, whole, bounds, T::SUBPIXEL_BITS);
+        if F::UNIFORM && D::BITS == 0 && N == 0 {
+            self.fill_shape(&shape, fragment);
+            return Some(Outcome::Drawn);
+        }
+        let slopes = Slopes::new(&corners, area, whole, T::SUBPIXEL_BITS)?;
+        self.shade_shape(shape, &slopes, vertices, fragment)
     }
 
     /// Corners in the target's subpixels, of those in the viewport's.

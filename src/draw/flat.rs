@@ -1,9 +1,10 @@
 //! One colour, no depth, nothing that cuts: from corners to rows of the target, and no more.
 
-use super::{Frame, Outcome};
+use super::Frame;
+use super::shape::{Follow, Shape};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
-use crate::math::{SMALL_CORE, index};
+use crate::math::index;
 use crate::setup::{Outline, Tier};
 use crate::traversal::{Halves, ProjectedSide, Short};
 use crate::vertex::Rect;
@@ -14,44 +15,28 @@ where
     C: Target,
     T: Tier,
 {
-    /// Fills a triangle of three projected vertices, with corners in the target's subpixels that are clockwise on the
-    /// screen or not.
+    /// Fills a shape.
     #[inline]
-    pub(super) fn fill_projected<F, const N: usize>(
-        &mut self,
-        corners: &[[i32; 2]; 3],
-        clockwise: bool,
-        fragment: &F,
-    ) -> Outcome
+    pub(super) fn fill_shape<F, const N: usize>(&mut self, shape: &Shape, fragment: &F)
     where
         F: Fragment<C::Color, N>,
     {
-        let outline = Outline::new(corners, clockwise);
-        let window = self.window();
-        let whole = outline.bounds(T::SUBPIXEL_BITS);
-        let bounds = whole.intersect(window);
-        if bounds.is_empty() {
-            return Outcome::OffScreen;
-        }
+        let Shape { outline, bounds, follow } = shape;
         let (left, top) = self.viewport.origin;
         let (x, y) = (bounds.x0 - left, bounds.y0 - top);
         let color = fragment.shade(Sample { x, y, varyings: [I16F16::ZERO; N] });
-        if !SMALL_CORE && bounds == whole && Short::fits(&outline, T::SUBPIXEL_BITS) {
-            self.fill_short(&outline, bounds, color);
-        } else if bounds.x0 == whole.x0 && bounds.x1 == whole.x1 {
-            self.fill_long(&outline, bounds, color);
-        } else {
-            self.fill_clipped(&outline, bounds, color);
+        match follow {
+            Follow::Short => self.fill_short(outline, *bounds, color),
+            Follow::Whole => self.fill_long(outline, *bounds, color),
+            Follow::Clipped => self.fill_clipped(outline, *bounds, color),
         }
-        Outcome::Drawn
     }
 
     /// Fills a small triangle that is all inside of the target.
     #[inline(always)]
     fn fill_short(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
         let bits = T::SUBPIXEL_BITS;
-        let outline = outline.moved(-bounds.x0, bits);
-        let mut halves = Halves::<Short>::new(&outline, bounds, bits);
+        let mut halves = Halves::<Short>::new(outline, bounds, bits);
         while let Some((y, mut half)) = halves.next() {
             self.target.fill_rows(index(bounds.x0), index(y), &mut half, color);
             halves.resume(half);

@@ -2,6 +2,7 @@
 
 use super::lanes::{self, Lanes, Word};
 use super::shade::{NoVaryings, Pixels};
+use super::shape::{Follow, Shape};
 use super::{Frame, Outcome};
 use crate::clip::Hither;
 use crate::depth::{DepthTest, projected};
@@ -10,28 +11,24 @@ use crate::framebuffer::Target;
 use crate::interpolation::{
     Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of, wrapped,
 };
-use crate::math::{SMALL_CORE, index, unsigned};
-use crate::setup::{Outline, Plane, Slopes, Tier};
+use crate::math::{index, unsigned};
+use crate::setup::{Plane, Slopes, Tier};
 use crate::span::Span;
 use crate::traversal::{Half, Halves, ProjectedSide, Short, Side};
-use crate::vertex::{Outside, Rect, Vertex};
+use crate::vertex::{Outside, Vertex};
 use core::hint::black_box;
 use core::marker::PhantomData;
 
-/// A projected triangle on its way to pixels, in the target's.
-struct Shape {
-    outline: Outline,
-    /// What may be covered of the window.
-    bounds: Rect,
+/// A shape with its depth.
+struct Deep {
+    shape: Shape,
     depth: Plane,
-    /// All of it may be covered, and [`Short`] fits it; its outline is then counted from the box's left side.
-    small: bool,
 }
 
 /// Where a shape's rows are.
 struct Row<'a, F, S> {
     frame: &'a mut F,
-    shape: &'a Shape,
+    shape: &'a Deep,
     half: Half<S>,
     y: i32,
 }
@@ -57,13 +54,12 @@ where
     T: Tier,
     I: Correction,
 {
-    /// Draws a triangle of three projected vertices that no plane cuts, if all it needs has planes; its doubled area is
-    /// not 0.
+    /// Draws a shape with depth or varyings, if all it needs has planes.
     #[inline]
-    pub(super) fn shade_projected<F, const N: usize>(
+    pub(super) fn shade_shape<F, const N: usize>(
         &mut self,
-        corners: &[[i32; 2]; 3],
-        area: i64,
+        shape: Shape,
+        slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
         fragment: &F,
     ) -> Option<Outcome>
@@ -75,22 +71,13 @@ where
         if D::BITS > 16 || (D::BITS > 0 && a & b & c & Outside::RANGED == 0) {
             return None;
         }
-        let outline = Outline::new(corners, area > 0);
-        let whole = outline.bounds(T::SUBPIXEL_BITS);
-        let bounds = whole.intersect(self.window());
-        if bounds.is_empty() {
-            return Some(Outcome::OffScreen);
-        }
-        let slopes = Slopes::new(corners, area, whole, T::SUBPIXEL_BITS)?;
-        let depth = if D::BITS > 0 { projected(&slopes, vertices) } else { Plane::default() };
-        let small = !SMALL_CORE && bounds == whole && Short::fits(&outline, T::SUBPIXEL_BITS);
-        let outline = if small { outline.moved(-bounds.x0, T::SUBPIXEL_BITS) } else { outline };
-        let shape = Shape { outline, bounds, depth, small };
+        let depth = if D::BITS > 0 { projected(slopes, vertices) } else { Plane::default() };
+        let shape = &Deep { shape, depth };
         match self.range.hither() {
             Some(hither) if N > 0 => {
-                self.draw_varying(&shape, &slopes, vertices, hither, fragment)?;
+                self.draw_varying(shape, slopes, vertices, hither, fragment)?;
             }
-            _ => self.draw_shape(&shape, &NoVaryings, fragment),
+            _ => self.draw_shape(shape, &NoVaryings, fragment),
         }
         Some(Outcome::Drawn)
     }
@@ -99,7 +86,7 @@ where
     #[inline]
     fn draw_varying<F, const N: usize>(
         &mut self,
-        shape: &Shape,
+        shape: &Deep,
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
         hither: Hither,
@@ -138,12 +125,12 @@ where
 
     /// Draws the pixels of a shape.
     #[inline(always)]
-    fn draw_shape<F, R, const N: usize>(&mut self, shape: &Shape, rows: &R, fragment: &F)
+    fn draw_shape<F, R, const N: usize>(&mut self, shape: &Deep, rows: &R, fragment: &F)
     where
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
     {
-        if shape.small {
+        if shape.shape.follow == Follow::Short {
             self.draw_halves::<Short, _, _, N>(shape, rows, fragment);
         } else {
             self.draw_halves::<ProjectedSide, _, _, N>(shape, rows, fragment);
@@ -152,13 +139,14 @@ where
 
     /// Draws the pixels of a shape, whose edges are followed by `S`.
     #[inline(never)]
-    fn draw_halves<S, F, R, const N: usize>(&mut self, shape: &Shape, rows: &R, fragment: &F)
+    fn draw_halves<S, F, R, const N: usize>(&mut self, shape: &Deep, rows: &R, fragment: &F)
     where
         S: Side,
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
     {
-        let mut halves = Halves::<S>::new(&shape.outline, shape.bounds, T::SUBPIXEL_BITS);
+        let Shape { outline, bounds, .. } = &shape.shape;
+        let mut halves = Halves::<S>::new(outline, *bounds, T::SUBPIXEL_BITS);
         while let Some((y, half)) = halves.next() {
             let mut row = Row { frame: &mut *self, shape, half, y };
             loop {
@@ -167,7 +155,7 @@ where
                 let Some((x0, x1)) = row.half.next() else {
                     break;
                 };
-                let bounds = row.shape.bounds;
+                let bounds = row.shape.shape.bounds;
                 let (y, x0, x1) = if S::WINDOWED {
                     (row.y, x0.max(bounds.x0), x1.min(bounds.x1))
                 } else {

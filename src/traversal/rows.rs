@@ -105,9 +105,10 @@ mod tests {
     /// All rows of a triangle from `y0` to `y1` against [`covered`].
     fn follows(p: [[i32; 2]; 3], bits: u32, y0: i32, y1: i32) {
         follows_by::<Line>(p, bits, y0, y1);
-        if Short::fits(&Outline::new(&p, true), bits) {
-            // Its columns are counted from the triangle's own.
-            let left = p.map(|p| p[0]).iter().min().unwrap() >> bits << bits;
+        let bounds = Outline::new(&p, true).bounds(bits);
+        if Short::fits(bounds) {
+            // Its columns are counted from the box's.
+            let left = bounds.x0 << bits;
             follows_by::<Short>(p.map(|[x, y]| [x - left, y]), bits, y0, y1);
         }
         follows_by::<Digital>(p, bits, y0, y1);

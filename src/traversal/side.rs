@@ -20,7 +20,8 @@
 //! instructions a row.
 
 use crate::math::{low, signed, unsigned};
-use crate::setup::{Corner, Outline};
+use crate::setup::Corner;
+use crate::vertex::Rect;
 
 /// An edge on one row.
 pub(crate) trait Side: Copy + core::fmt::Debug {
@@ -152,13 +153,11 @@ impl Short {
     /// Fraction bits.
     const FRACTION: u32 = 26;
 
-    /// Whether a triangle is small enough. It has to be followed from its first row, and from the column of its
-    /// leftmost corner as 0.
+    /// Whether a triangle of which this is the box is small enough: a side is less than a pixel longer than the
+    /// box. It has to be followed from its first row, and from the box's first column as 0.
     #[inline]
-    pub(crate) fn fits(outline: &Outline, bits: u32) -> bool {
-        let [p, q, r] = outline.corners;
-        let width = p.x.max(q.x).max(r.x) - p.x.min(q.x).min(r.x);
-        width < 24 << bits && r.y - p.y < 24 << bits
+    pub(crate) const fn fits(bounds: Rect) -> bool {
+        bounds.x1 - bounds.x0 < 23 && bounds.y1 - bounds.y0 < 23
     }
 }
 
