@@ -253,15 +253,18 @@ where
         let whole = outline.bounds(T::SUBPIXEL_BITS);
         // Corners inside of the viewport need no more than a look at their box.
         let inside = any & Outside::SIDES == 0 && self.shows_all();
+        if F::UNIFORM && D::BITS == 0 && N == 0 {
+            return Some(if inside {
+                self.fill_inside(&outline, whole, fragment)
+            } else {
+                self.fill_windowed(&outline, whole, fragment)
+            });
+        }
         let bounds = if inside { whole } else { whole.intersect(self.window()) };
         if bounds.is_empty() {
             return Some(Outcome::OffScreen);
         }
         let shape = Shape::new(outline, whole, bounds, T::SUBPIXEL_BITS);
-        if F::UNIFORM && D::BITS == 0 && N == 0 {
-            self.fill_shape(&shape, fragment);
-            return Some(Outcome::Drawn);
-        }
         let slopes = Slopes::new(&corners, area, whole, T::SUBPIXEL_BITS)?;
         self.shade_shape(shape, &slopes, vertices, fragment)
     }

@@ -295,16 +295,19 @@ fn fill_long<W: Pod>(run: &mut [W], word: W) {
     };
     let (head, body, tail) = bytemuck::pod_align_to_mut::<W, u32>(run);
     head.iter_mut().for_each(|w| *w = word);
-    let mut blocks = body.chunks_exact_mut(8);
-    for eight in &mut blocks {
-        if let [a, b, c, d, e, f, g, h] = eight {
-            (*a, *b, *c, *d) = (block, block, block, block);
-            (*e, *f, *g, *h) = (block, block, block, block);
-        }
+    let mut blocks = body.chunks_exact_mut(16);
+    for sixteen in &mut blocks {
+        let (first, second) = sixteen.split_at_mut(8);
+        fill_short(first, block);
+        fill_short(second, block);
         // Nothing; but with it the loop is not unrolled, which costs more before and after it.
         core::hint::black_box(());
     }
-    fill_short(blocks.into_remainder(), block);
+    let mut rest = blocks.into_remainder().chunks_exact_mut(8);
+    if let Some(eight) = rest.next() {
+        fill_short(eight, block);
+    }
+    fill_short(rest.into_remainder(), block);
     tail.iter_mut().for_each(|w| *w = word);
 }
 

@@ -1,10 +1,9 @@
 //! One colour, no depth, nothing that cuts: from corners to rows of the target, and no more.
 
-use super::Frame;
-use super::shape::{Follow, Shape};
+use super::{Frame, Outcome};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
-use crate::math::index;
+use crate::math::{SMALL_CORE, index};
 use crate::setup::{Outline, Tier};
 use crate::traversal::{Halves, ProjectedSide, Short};
 use crate::vertex::Rect;
@@ -15,21 +14,58 @@ where
     C: Target,
     T: Tier,
 {
-    /// Fills a shape.
+    /// Fills a triangle that is all inside of the window.
     #[inline]
-    pub(super) fn fill_shape<F, const N: usize>(&mut self, shape: &Shape, fragment: &F)
+    pub(super) fn fill_inside<F, const N: usize>(
+        &mut self,
+        outline: &Outline,
+        whole: Rect,
+        fragment: &F,
+    ) -> Outcome
     where
         F: Fragment<C::Color, N>,
     {
-        let Shape { outline, bounds, follow } = shape;
+        if whole.is_empty() {
+            return Outcome::OffScreen;
+        }
+        let color = self.color_of(whole, fragment);
+        if !SMALL_CORE && Short::fits(whole) {
+            self.fill_short(&outline.moved(-whole.x0, T::SUBPIXEL_BITS), whole, color);
+        } else {
+            self.fill_long(outline, whole, color);
+        }
+        Outcome::Drawn
+    }
+
+    /// Fills what the window has of a triangle. Not inlined, so that one that is inside has no registers for it.
+    #[inline(never)]
+    pub(super) fn fill_windowed<F, const N: usize>(
+        &mut self,
+        outline: &Outline,
+        whole: Rect,
+        fragment: &F,
+    ) -> Outcome
+    where
+        F: Fragment<C::Color, N>,
+    {
+        let bounds = whole.intersect(self.window());
+        if bounds.is_empty() {
+            return Outcome::OffScreen;
+        }
+        let color = self.color_of(bounds, fragment);
+        self.fill_clipped(outline, bounds, color);
+        Outcome::Drawn
+    }
+
+    /// The colour of a triangle that has one.
+    #[inline]
+    fn color_of<F, const N: usize>(&self, bounds: Rect, fragment: &F) -> C::Color
+    where
+        F: Fragment<C::Color, N>,
+    {
         let (left, top) = self.viewport.origin;
         let (x, y) = (bounds.x0 - left, bounds.y0 - top);
-        let color = fragment.shade(Sample { x, y, varyings: [I16F16::ZERO; N] });
-        match follow {
-            Follow::Short => self.fill_short(outline, *bounds, color),
-            Follow::Whole => self.fill_long(outline, *bounds, color),
-            Follow::Clipped => self.fill_clipped(outline, *bounds, color),
-        }
+        fragment.shade(Sample { x, y, varyings: [I16F16::ZERO; N] })
     }
 
     /// Fills a small triangle that is all inside of the target.
@@ -55,7 +91,7 @@ where
     }
 
     /// Fills what is inside of `bounds`.
-    #[inline(never)]
+    #[inline(always)]
     fn fill_clipped(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
         let bits = T::SUBPIXEL_BITS;
         let mut halves = Halves::<ProjectedSide>::new(outline, bounds, bits);
