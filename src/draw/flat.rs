@@ -4,8 +4,8 @@ use super::{Frame, Outcome};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
 use crate::math::{SMALL_CORE, index};
-use crate::setup::{Outline, Tier};
-use crate::traversal::{Halves, ProjectedSide, Short};
+use crate::setup::{Anchored, Outline, Tier};
+use crate::traversal::{Halves, ProjectedSide, Short, Side, Stepped};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
@@ -33,17 +33,51 @@ where
         if bounds.is_empty() {
             return Outcome::OffScreen;
         }
-        let (left, top) = self.viewport.origin;
-        let (x, y) = (bounds.x0 - left, bounds.y0 - top);
-        let color = fragment.shade(Sample { x, y, varyings: [I16F16::ZERO; N] });
+        let color = self.uniform(bounds, fragment);
         if !SMALL_CORE && bounds == whole && Short::fits(&outline, T::SUBPIXEL_BITS) {
             self.fill_short(&outline, bounds, color);
         } else if bounds.x0 == whole.x0 && bounds.x1 == whole.x1 {
-            self.fill_long(&outline, bounds, color);
+            self.fill_long::<ProjectedSide>(&outline, bounds, color);
         } else {
-            self.fill_clipped(&outline, bounds, color);
+            self.fill_clipped::<ProjectedSide>(&outline, bounds, color);
         }
         Outcome::Drawn
+    }
+
+    /// Fills a triangle on the screen in the exact tier.
+    #[inline]
+    pub(super) fn fill_homogeneous<F, const N: usize>(
+        &mut self,
+        outline: &Outline<Anchored>,
+        fragment: &F,
+    ) -> Outcome
+    where
+        F: Fragment<C::Color, N>,
+    {
+        let window = self.window();
+        let whole = outline.bounds();
+        let bounds = whole.intersect(window);
+        if bounds.is_empty() {
+            return Outcome::OffScreen;
+        }
+        let color = self.uniform(bounds, fragment);
+        if bounds.x0 == whole.x0 && bounds.x1 == whole.x1 {
+            self.fill_long::<Stepped>(outline, bounds, color);
+        } else {
+            self.fill_clipped::<Stepped>(outline, bounds, color);
+        }
+        Outcome::Drawn
+    }
+
+    /// The one colour of a fragment that has one.
+    #[inline]
+    fn uniform<F, const N: usize>(&self, bounds: Rect, fragment: &F) -> C::Color
+    where
+        F: Fragment<C::Color, N>,
+    {
+        let (left, top) = self.viewport.origin;
+        let (x, y) = (bounds.x0 - left, bounds.y0 - top);
+        fragment.shade(Sample { x, y, varyings: [I16F16::ZERO; N] })
     }
 
     /// Fills a small triangle that is all inside of the target.
@@ -60,9 +94,9 @@ where
 
     /// Fills the rows of `bounds`, which has all columns.
     #[inline(always)]
-    fn fill_long(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
+    fn fill_long<S: Side>(&mut self, outline: &Outline<S::Corner>, bounds: Rect, color: C::Color) {
         let bits = T::SUBPIXEL_BITS;
-        let mut halves = Halves::<ProjectedSide>::new(outline, bounds, bits);
+        let mut halves = Halves::<S>::new(outline, bounds, bits);
         while let Some((y, mut half)) = halves.next() {
             self.target.fill_rows(0, index(y), &mut half, color);
             halves.resume(half);
@@ -71,9 +105,14 @@ where
 
     /// Fills what is inside of `bounds`.
     #[inline(never)]
-    fn fill_clipped(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
+    fn fill_clipped<S: Side>(
+        &mut self,
+        outline: &Outline<S::Corner>,
+        bounds: Rect,
+        color: C::Color,
+    ) {
         let bits = T::SUBPIXEL_BITS;
-        let mut halves = Halves::<ProjectedSide>::new(outline, bounds, bits);
+        let mut halves = Halves::<S>::new(outline, bounds, bits);
         while let Some((y, mut half)) = halves.next() {
             let runs = half.by_ref().map(|(x0, x1)| (x0.max(bounds.x0), x1.min(bounds.x1)));
             self.target.fill_rows(0, index(y), runs, color);

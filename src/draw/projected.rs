@@ -11,32 +11,32 @@ use crate::interpolation::{
     Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of,
 };
 use crate::math::{SMALL_CORE, index, unsigned};
-use crate::setup::{Outline, Plane, Slopes, Tier};
+use crate::setup::{Corner, Outline, Plane, Slopes, Tier};
 use crate::span::Span;
 use crate::traversal::{Half, Halves, ProjectedSide, Short, Side};
 use crate::vertex::{Outside, Rect, Vertex};
 use core::hint::black_box;
 
-/// A projected triangle on its way to pixels, in the target's.
-struct Shape {
-    outline: Outline,
+/// A triangle on the screen on its way to pixels, in the target's.
+pub(super) struct Shape<C = Corner> {
+    pub(super) outline: Outline<C>,
     /// What may be covered of the window.
-    bounds: Rect,
-    depth: Plane,
+    pub(super) bounds: Rect,
+    pub(super) depth: Plane,
     /// All of it may be covered, and [`Short`] fits it; its outline is then counted from the box's left side.
-    small: bool,
+    pub(super) small: bool,
 }
 
 /// Where a shape's rows are.
-struct Row<'a, F, S> {
+struct Row<'a, F, S: Side> {
     frame: &'a mut F,
-    shape: &'a Shape,
+    shape: &'a Shape<S::Corner>,
     half: Half<S>,
     y: i32,
 }
 
 /// What a triangle's pixels are made from, a block of a row at a time.
-trait Rows<const N: usize> {
+pub(super) trait Rows<const N: usize> {
     /// How the pixels of a block are made.
     type Block;
     /// What the next block of a row goes on from.
@@ -143,8 +143,12 @@ where
 
     /// Draws the pixels of a shape, whose edges are followed by `S`.
     #[inline(never)]
-    fn draw_halves<S, F, R, const N: usize>(&mut self, shape: &Shape, rows: &R, fragment: &F)
-    where
+    pub(super) fn draw_halves<S, F, R, const N: usize>(
+        &mut self,
+        shape: &Shape<S::Corner>,
+        rows: &R,
+        fragment: &F,
+    ) where
         S: Side,
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,

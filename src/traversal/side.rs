@@ -20,18 +20,21 @@
 //! instructions a row.
 
 use crate::math::{low, signed, unsigned};
-use crate::setup::{Corner, Outline};
+use crate::setup::{Corner, Outline, Place};
 
 /// An edge on one row.
 pub(crate) trait Side: Copy + core::fmt::Debug {
+    /// What it goes between.
+    type Corner: Place;
+
     /// Whether a triangle's rows may reach out of the window they are drawn in.
     const WINDOWED: bool;
 
     /// The edge from `upper` to `lower` in subpixels of `bits` bits on row `row`, which it has.
-    fn new(upper: Corner, lower: Corner, row: i32, bits: u32) -> Self;
+    fn new(upper: Self::Corner, lower: Self::Corner, row: i32, bits: u32) -> Self;
 
     /// The first column whose centre is not left of the edge.
-    fn x(&self) -> i32;
+    fn x(&mut self) -> i32;
 
     /// The next row.
     fn step(&mut self);
@@ -104,6 +107,8 @@ impl Line {
 
 #[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
 impl Side for Line {
+    type Corner = Corner;
+
     const WINDOWED: bool = true;
 
     #[inline(always)]
@@ -124,7 +129,7 @@ impl Side for Line {
     }
 
     #[inline]
-    fn x(&self) -> i32 {
+    fn x(&mut self) -> i32 {
         low(self.at >> 32)
     }
 
@@ -163,6 +168,8 @@ impl Short {
 }
 
 impl Side for Short {
+    type Corner = Corner;
+
     const WINDOWED: bool = false;
 
     #[inline(always)]
@@ -176,7 +183,7 @@ impl Side for Short {
     }
 
     #[inline]
-    fn x(&self) -> i32 {
+    fn x(&mut self) -> i32 {
         self.at >> Self::FRACTION
     }
 
@@ -213,6 +220,8 @@ impl Digital {
 
 #[cfg(any(test, all(target_arch = "arm", not(target_has_atomic = "32"))))]
 impl Side for Digital {
+    type Corner = Corner;
+
     const WINDOWED: bool = true;
 
     #[inline]
@@ -228,7 +237,7 @@ impl Side for Digital {
     }
 
     #[inline]
-    fn x(&self) -> i32 {
+    fn x(&mut self) -> i32 {
         self.x
     }
 
