@@ -179,7 +179,7 @@ mod tests {
             let (y0, y1) = [(0, 512), (y, y + 1), (y, y + 40)][i % 3];
             drawn += i32::from(follows(v, &viewport, y0, y1));
         }
-        assert!(drawn > 2000, "{drawn} triangles covered something");
+        assert!(drawn > 500, "{drawn} triangles covered something");
     }
 
     #[test]
