@@ -397,7 +397,9 @@ fn weight_step(scale: Scale, edge: i64) -> i64 {
 
 /// Whether the vertices have the same `w`, to the bit, so that `q` is constant.
 #[inline]
-fn same_w<T: Snap, const N: usize, const P: usize>([a, b, c]: [&Vertex<T, N, P>; 3]) -> bool {
+pub(crate) fn same_w<T: Snap, const N: usize, const P: usize>(
+    [a, b, c]: [&Vertex<T, N, P>; 3],
+) -> bool {
     let w = |v: &Vertex<T, N, P>| {
         let ScaleOf(k) = v.position.scale();
         (k, v.position.scaled_w())

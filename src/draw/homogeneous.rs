@@ -1,11 +1,14 @@
 //! Triangles on the exact tier's grid: what is decided before anything is made of them, and those that are on the screen.
 
+use super::projected::Shape;
+use super::shade::NoVaryings;
 use super::{Frame, Outcome};
-use crate::depth::DepthTest;
+use crate::depth::{DepthTest, projected};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
-use crate::interpolation::{Correction, Interpolates};
-use crate::setup::{Facing, Tier, determinant, outline};
+use crate::interpolation::{Correction, Interpolates, Linear, same_w};
+use crate::setup::{Facing, Outline, Plane, Slopes, Tier, anchored, determinant};
+use crate::traversal::Stepped;
 use crate::vertex::{Outside, Vertex};
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
@@ -41,10 +44,32 @@ where
         if cut || (a | b | c) & (Outside::HITHER | Outside::SIDES) != 0 {
             return None;
         }
+        let corners = anchored(positions, &self.viewport)?;
+        let outline = Outline::of(&corners, facing);
         if F::UNIFORM && D::BITS == 0 && N == 0 {
-            let outline = outline(positions, facing, &self.viewport)?;
             return Some(self.fill_homogeneous(&outline, fragment));
         }
-        None
+        if D::BITS > 16 || (D::BITS > 0 && a & b & c & Outside::RANGED == 0) {
+            return None;
+        }
+        let whole = outline.bounds();
+        let bounds = whole.intersect(self.window());
+        if bounds.is_empty() {
+            return Some(Outcome::OffScreen);
+        }
+        let slopes = Slopes::homogeneous(positions, determinant, &whole, &self.viewport)?;
+        let depth = if D::BITS > 0 { projected(&slopes, vertices)? } else { Plane::default() };
+        let (left, top) = self.viewport.origin;
+        let depth = depth.moved(left, top);
+        let shape = Shape { outline, bounds, depth, small: false };
+        if N == 0 {
+            self.draw_halves::<Stepped, _, _, N>(&shape, &NoVaryings, fragment);
+        } else if I::AFFINE || same_w(vertices) {
+            let linear = Linear::new(&slopes, vertices)?.moved(left, top);
+            self.draw_halves::<Stepped, _, _, N>(&shape, &linear, fragment);
+        } else {
+            return None;
+        }
+        Some(Outcome::Drawn)
     }
 }

@@ -120,6 +120,12 @@ impl<const N: usize> Linear<N> {
         Some(Self { each })
     }
 
+    /// The same, some pixels further to the right and down.
+    #[inline]
+    pub(crate) fn moved(self, columns: i32, rows: i32) -> Self {
+        Self { each: self.each.map(|plane| plane.moved(columns, rows)) }
+    }
+
     /// The values from a pixel on.
     #[inline]
     pub(crate) fn line(&self, x: i32, y: i32) -> Line<N> {

@@ -15,10 +15,22 @@ use super::{Extent, Facing, Outline, Place, Setup, Tier, bounds};
 use crate::math::{Scale, cross, unsigned};
 use crate::vertex::{Exact, ExactPosition, Rect, Viewport};
 
+/// How the edge function of two vertices grows along a row of the screen.
+#[inline]
+pub(super) fn row_minor(p: &ExactPosition, q: &ExactPosition) -> i64 {
+    cross(p.y, q.w, p.w, q.y)
+}
+
+/// How the edge function of two vertices grows up a column of the screen.
+#[inline]
+pub(super) fn column_minor(p: &ExactPosition, q: &ExactPosition) -> i64 {
+    cross(p.w, q.x, p.x, q.w)
+}
+
 /// The cross product of two vertices: the line through both.
 #[inline]
 fn minor(p: &ExactPosition, q: &ExactPosition) -> [i64; 3] {
-    [cross(p.y, q.w, p.w, q.y), cross(p.w, q.x, p.x, q.w), cross(p.x, q.y, p.y, q.x)]
+    [row_minor(p, q), column_minor(p, q), cross(p.x, q.y, p.y, q.x)]
 }
 
 /// The determinant of three vertices: its sign is the facing. Of all that setup makes it is the first, since half of
@@ -27,6 +39,20 @@ fn minor(p: &ExactPosition, q: &ExactPosition) -> [i64; 3] {
 pub(crate) fn determinant([p, q, r]: [&ExactPosition; 3]) -> i64 {
     let [a, b, c] = minor(q, r);
     i64::from(p.x) * a + i64::from(p.y) * b + i64::from(p.w) * c
+}
+
+impl ExactPosition {
+    /// How far past the centre of its pixel it is, in pixels times `2 w`: within `-2 w < x, y <= 0` where the vertex is on the screen.
+    ///
+    /// Each is a difference of two terms of at most `2^30 + 2^20`, neither of them negative there.
+    #[inline]
+    pub(super) const fn past_centre(&self, viewport: &Viewport) -> [i32; 2] {
+        let (column, row) = (self.column as i32, self.row as i32);
+        [
+            viewport.width * (self.x + self.w) - (2 * column + 1) * self.w,
+            viewport.height * (self.w - self.y) - (2 * row + 1) * self.w,
+        ]
+    }
 }
 
 /// A vertex on the screen, from the pixel that it is in or just before: it is `(x, y) / (2 w)` pixels from the centre
@@ -48,18 +74,15 @@ impl Anchored {
     /// another viewport.
     #[inline]
     fn new(p: &ExactPosition, viewport: &Viewport) -> Option<Self> {
-        let (column, row) = (i32::from(p.column), i32::from(p.row));
-        // Both terms are at most 2^30 + 2^20, and neither is negative where the vertex is on the screen.
-        let x = viewport.width * (p.x + p.w) - (2 * column + 1) * p.w;
-        let y = viewport.height * (p.w - p.y) - (2 * row + 1) * p.w;
+        let [x, y] = p.past_centre(viewport);
         let before = |v: i32| unsigned(v.wrapping_neg()) < unsigned(2 * p.w);
         let (left, top) = viewport.origin;
         (before(x) && before(y)).then_some(Self {
             x,
             y,
             w: p.w,
-            column: column + left,
-            row: row + top,
+            column: i32::from(p.column) + left,
+            row: i32::from(p.row) + top,
         })
     }
 
@@ -78,20 +101,23 @@ impl Place for Anchored {
     }
 }
 
-/// The outline of a triangle of three vertices with `w > 0`; `None` where one is not [`Anchored`].
+/// Three vertices with `w > 0`; `None` where one is not [`Anchored`].
 #[inline]
-pub(crate) fn outline(
+pub(crate) fn anchored(
     [p, q, r]: [&ExactPosition; 3],
-    facing: Facing,
     viewport: &Viewport,
-) -> Option<Outline<Anchored>> {
+) -> Option<[Anchored; 3]> {
     let [p, q, r] = [p, q, r].map(|v| Anchored::new(v, viewport));
-    let corners = [p?, q?, r?];
-    // Those of a row have no centre between them, and may be in any order.
-    Some(Outline::sorted(corners, facing == Facing::Back, |corner| corner.row))
+    Some([p?, q?, r?])
 }
 
 impl Outline<Anchored> {
+    /// The outline of a triangle: vertices on one row have no centre between them, and may be in any order.
+    #[inline]
+    pub(crate) fn of(vertices: &[Anchored; 3], facing: Facing) -> Self {
+        Self::sorted(*vertices, facing == Facing::Back, |corner| corner.row)
+    }
+
     /// The box of the pixel centres it may cover.
     #[inline]
     pub(crate) fn bounds(&self) -> Rect {

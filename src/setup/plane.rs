@@ -1,4 +1,4 @@
-//! Linear functions over a projected triangle, in 32 bits: depth, varyings, colours.
+//! Linear functions over a triangle on the screen, in 32 bits: depth, varyings, colours.
 //!
 //! With `d_i = v_i - v_0` and `D` the doubled area, `v = v_0 + (d_1 E_1 + d_2 E_2) / D`. All that is divided is
 //! `D`, once a triangle ([`Slopes`]); each function then takes two gradients ([`Plane`]).
@@ -25,22 +25,22 @@ use super::doubled_area;
 use crate::math::{high, low, normalized, reciprocal, signed, unsigned};
 use crate::vertex::Rect;
 
-/// What turns differences over a projected triangle into gradients.
+/// What turns differences over a triangle into gradients.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slopes {
-    /// Of `E_1` and `E_2`, a subpixel to the right.
-    across: [i32; 2],
-    /// A subpixel down.
-    down: [i32; 2],
-    /// `2^63 / (D 2^zeros)`.
-    inverse: u32,
+    /// Of `E_1` and `E_2`, a step to the right.
+    pub(super) across: [i32; 2],
+    /// A step down.
+    pub(super) down: [i32; 2],
+    /// `2^63 / (D 2^zeros)`, or what it is in the exact tier.
+    pub(super) inverse: u32,
     /// How far a numerator is shifted right.
-    shift: u32,
+    pub(super) shift: u32,
     /// Gradients are multiples of `2^steep`.
-    steep: u32,
-    /// From vertex 0 to the centre of pixel (0, 0), in subpixels.
-    back: [i32; 2],
-    subpixel_bits: u32,
+    pub(super) steep: u32,
+    /// From vertex 0 to the centre of pixel (0, 0), in subpixels of `subpixel_bits` bits.
+    pub(super) back: [i32; 2],
+    pub(super) subpixel_bits: u32,
 }
 
 /// A linear function on the screen, modulo 2^32.
@@ -121,6 +121,12 @@ impl Plane {
     pub(crate) const fn at(&self, x: i32, y: i32) -> u32 {
         let across = self.x.wrapping_mul(unsigned(x));
         self.origin.wrapping_add(across).wrapping_add(self.y.wrapping_mul(unsigned(y)))
+    }
+
+    /// The same function, some pixels further to the right and down.
+    #[inline]
+    pub(crate) const fn moved(self, columns: i32, rows: i32) -> Self {
+        Self { origin: self.at(-columns, -rows), ..self }
     }
 
     /// The value at a covered pixel, of a function of both signs.
