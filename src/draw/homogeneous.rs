@@ -1,6 +1,7 @@
 //! Triangles on the exact tier's grid: what is decided before anything is made of them, and those that are on the screen.
 
-use super::projected::Shape;
+use super::lanes::{Channels, Lanes};
+use super::projected::{Rows, Shape};
 use super::shade::NoVaryings;
 use super::{Frame, Outcome};
 use crate::depth::{DepthTest, projected};
@@ -8,6 +9,7 @@ use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates, Linear, same_w};
 use crate::setup::{Facing, Outline, Plane, Slopes, Tier, anchored, determinant};
+use crate::span::Span;
 use crate::traversal::Stepped;
 use crate::vertex::{Outside, Vertex};
 
@@ -65,11 +67,32 @@ where
         if N == 0 {
             self.draw_halves::<Stepped, _, _, N>(&shape, &NoVaryings, fragment);
         } else if I::AFFINE || same_w(vertices) {
+            if let Some(lanes) = F::LANES.and_then(|lanes| Lanes::new(&slopes, vertices, lanes)) {
+                let channels = Separate(lanes.moved(left, top));
+                self.draw_halves::<Stepped, _, _, N>(&shape, &channels, fragment);
+                return Some(Outcome::Drawn);
+            }
             let linear = Linear::new(&slopes, vertices)?.moved(left, top);
             self.draw_halves::<Stepped, _, _, N>(&shape, &linear, fragment);
         } else {
             return None;
         }
         Some(Outcome::Drawn)
+    }
+}
+
+/// Lanes as channels, each by itself.
+struct Separate<const N: usize>(Lanes<N>);
+
+impl<const N: usize> Rows<N> for Separate<N> {
+    type Block = Channels<N>;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (Channels<N>, i32) {
+        (self.0.channels(span.x0, span.y), span.x1 - span.x0)
     }
 }

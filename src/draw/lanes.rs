@@ -31,6 +31,14 @@ pub(super) struct Word {
     step: u32,
 }
 
+/// The same channels along a row, each stepped by itself with all bits of its plane: within half a step of the colour and
+/// what the plane is off.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Channels<const N: usize> {
+    at: [u32; N],
+    step: [u32; N],
+}
+
 impl<const N: usize> Lanes<N> {
     /// The planes through three vertices whose varyings are in `[0, 1]`, where they have some.
     #[inline]
@@ -57,6 +65,21 @@ impl<const N: usize> Lanes<N> {
         Some(all)
     }
 
+    /// The same, some pixels further to the right and down.
+    #[inline]
+    pub(super) fn moved(self, columns: i32, rows: i32) -> Self {
+        Self { each: self.each.map(|(lane, plane)| (lane, plane.moved(columns, rows))), ..self }
+    }
+
+    /// The channels from a pixel on.
+    #[inline]
+    pub(super) fn channels(&self, x: i32, y: i32) -> Channels<N> {
+        Channels {
+            at: self.each.map(|(_, plane)| plane.at(x, y)),
+            step: self.each.map(|(_, plane)| plane.x),
+        }
+    }
+
     /// The lanes from a pixel on.
     #[inline]
     pub(super) fn word(&self, x: i32, y: i32) -> Word {
@@ -77,5 +100,23 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
     #[inline]
     fn step(&mut self) {
         self.at = self.at.wrapping_add(self.step);
+    }
+}
+
+impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N> {
+    #[inline]
+    fn color(&self, fragment: &F, _: i32, _: i32) -> C {
+        let mut word = 0;
+        for (lane, at) in F::LANES.iter().flatten().zip(self.at) {
+            word |= at >> (32 - lane.width) << lane.place;
+        }
+        fragment.shade_lanes(word)
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        for (at, step) in self.at.iter_mut().zip(self.step) {
+            *at = at.wrapping_add(step);
+        }
     }
 }
