@@ -24,6 +24,7 @@
 //! of 64 bits a varying, whose high word is the value.
 
 mod plane;
+mod quotient;
 
 use crate::clip::{Hither, WRange};
 use crate::math::{Factor, Scale, low, reciprocal, saturate, shr_round};
@@ -32,6 +33,7 @@ use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
 pub(crate) use plane::{Line, Linear, Pieces, is_straight, nearness_of};
+pub(crate) use quotient::{Followed, Quotients};
 
 /// Pixels that are stepped from one exact start, where each is divided.
 pub(crate) const BLOCK: i32 = 64;

@@ -18,7 +18,7 @@ mod plane;
 mod quick;
 mod slopes;
 
-pub(crate) use exact::{Anchored, anchored, determinant};
+pub(crate) use exact::{Anchored, determinant, outline};
 pub(crate) use outline::{Corner, Outline, Place, doubled_area, shows};
 pub(crate) use plane::{Plane, Slopes};
 

@@ -7,8 +7,8 @@ use super::{Frame, Outcome};
 use crate::depth::{DepthTest, projected};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
-use crate::interpolation::{Correction, Interpolates, Linear, same_w};
-use crate::setup::{Facing, Outline, Plane, Slopes, Tier, anchored, determinant};
+use crate::interpolation::{Correction, Followed, Interpolates, Linear, Quotients, same_w};
+use crate::setup::{Facing, Plane, Slopes, Tier, determinant, outline};
 use crate::span::Span;
 use crate::traversal::Stepped;
 use crate::vertex::{Outside, Vertex};
@@ -46,8 +46,7 @@ where
         if cut || (a | b | c) & (Outside::HITHER | Outside::SIDES) != 0 {
             return None;
         }
-        let corners = anchored(positions, &self.viewport)?;
-        let outline = Outline::of(&corners, facing);
+        let outline = outline(positions, facing, &self.viewport)?;
         if F::UNIFORM && D::BITS == 0 && N == 0 {
             return Some(self.fill_homogeneous(&outline, fragment));
         }
@@ -74,6 +73,9 @@ where
             }
             let linear = Linear::new(&slopes, vertices)?.moved(left, top);
             self.draw_halves::<Stepped, _, _, N>(&shape, &linear, fragment);
+        } else if I::EVERY == 1 {
+            let quotients = Quotients::new(&slopes, vertices, (left, top))?;
+            self.draw_halves::<Stepped, _, _, N>(&shape, &Each(&quotients), fragment);
         } else {
             return None;
         }
@@ -94,5 +96,21 @@ impl<const N: usize> Rows<N> for Separate<N> {
     #[inline]
     fn block(&self, span: Span, (): &mut ()) -> (Channels<N>, i32) {
         (self.0.channels(span.x0, span.y), span.x1 - span.x0)
+    }
+}
+
+/// Varyings divided at each pixel.
+struct Each<'a, const N: usize>(&'a Quotients<N>);
+
+impl<'a, const N: usize> Rows<N> for Each<'a, N> {
+    type Block = Followed<'a, N>;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (Followed<'a, N>, i32) {
+        (self.0.from(span.x0, span.y), span.x1 - span.x0)
     }
 }

@@ -101,23 +101,21 @@ impl Place for Anchored {
     }
 }
 
-/// Three vertices with `w > 0`; `None` where one is not [`Anchored`].
-#[inline]
-pub(crate) fn anchored(
-    [p, q, r]: [&ExactPosition; 3],
+/// The outline of a triangle of three vertices with `w > 0`; `None` where one is not [`Anchored`].
+#[inline(never)]
+pub(crate) fn outline(
+    vertices: [&ExactPosition; 3],
+    facing: Facing,
     viewport: &Viewport,
-) -> Option<[Anchored; 3]> {
-    let [p, q, r] = [p, q, r].map(|v| Anchored::new(v, viewport));
-    Some([p?, q?, r?])
+) -> Option<Outline<Anchored>> {
+    // Those of a row have no centre between them, and may be in any order.
+    let Outline { corners, turns_right } =
+        Outline::sorted(vertices, facing == Facing::Back, |v| i32::from(v.row));
+    let [top, middle, bottom] = corners.map(|v| Anchored::new(v, viewport));
+    Some(Outline { corners: [top?, middle?, bottom?], turns_right })
 }
 
 impl Outline<Anchored> {
-    /// The outline of a triangle: vertices on one row have no centre between them, and may be in any order.
-    #[inline]
-    pub(crate) fn of(vertices: &[Anchored; 3], facing: Facing) -> Self {
-        Self::sorted(*vertices, facing == Facing::Back, |corner| corner.row)
-    }
-
     /// The box of the pixel centres it may cover.
     #[inline]
     pub(crate) fn bounds(&self) -> Rect {

@@ -93,7 +93,7 @@ impl Stepped {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::{Facing, Outline, Tier, anchored, determinant};
+    use crate::setup::{Facing, Tier, determinant, outline};
     use crate::traversal::Halves;
     use crate::vertex::{ClipVertex, Exact, Rect, Snap, Viewport};
     use std::vec::Vec;
@@ -108,10 +108,9 @@ mod tests {
         };
         let setup = Exact::set_up(v, viewport).unwrap();
         assert_eq!(setup.facing, facing);
-        let Some(corners) = anchored(v, viewport) else {
+        let Some(outline) = outline(v, facing, viewport) else {
             return false;
         };
-        let outline = Outline::of(&corners, facing);
         let whole = outline.bounds();
         let bounds = Rect { y0: whole.y0.max(y0), y1: whole.y1.min(y1), ..whole };
         if bounds.is_empty() {
@@ -209,7 +208,7 @@ mod tests {
         let at = |viewport: &Viewport| v.map(|v| snapped(v, viewport));
         for (from, to) in [(&small, &large), (&large, &small), (&large, &large)] {
             let [p, q, r] = &at(from);
-            let has = anchored([p, q, r], to).is_some();
+            let has = outline([p, q, r], Facing::Front, to).is_some();
             assert_eq!(has, from == to);
         }
     }
