@@ -1,6 +1,6 @@
 //! Triangles on the exact tier's grid: what is decided before anything is made of them, and those that are on the screen.
 
-use super::lanes::{Channels, Lanes};
+use super::lanes::{Channels, Divided, Lanes};
 use super::projected::{Rows, Shape};
 use super::shade::NoVaryings;
 use super::{Frame, Outcome};
@@ -74,6 +74,13 @@ where
             let linear = Linear::new(&slopes, vertices)?.moved(left, top);
             self.draw_halves::<Stepped, _, _, N>(&shape, &linear, fragment);
         } else if I::EVERY == 1 {
+            if let Some(lanes) = F::LANES {
+                let channels = Quotients::channels(&slopes, vertices, (left, top), lanes);
+                if let Some(channels) = channels {
+                    self.draw_halves::<Stepped, _, _, N>(&shape, &EachChannel(&channels), fragment);
+                    return Some(Outcome::Drawn);
+                }
+            }
             let quotients = Quotients::new(&slopes, vertices, (left, top))?;
             self.draw_halves::<Stepped, _, _, N>(&shape, &Each(&quotients), fragment);
         } else {
@@ -112,5 +119,21 @@ impl<'a, const N: usize> Rows<N> for Each<'a, N> {
     #[inline]
     fn block(&self, span: Span, (): &mut ()) -> (Followed<'a, N>, i32) {
         (self.0.from(span.x0, span.y), span.x1 - span.x0)
+    }
+}
+
+/// Channels divided at each pixel.
+struct EachChannel<'a, const N: usize>(&'a Quotients<N>);
+
+impl<'a, const N: usize> Rows<N> for EachChannel<'a, N> {
+    type Block = Divided<'a, N>;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (Divided<'a, N>, i32) {
+        (Divided(self.0.from(span.x0, span.y)), span.x1 - span.x0)
     }
 }

@@ -8,6 +8,7 @@
 use super::shade::Pixels;
 use crate::color::Lane;
 use crate::fragment::Fragment;
+use crate::interpolation::{Followed, Run};
 use crate::math::{bits, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Snap, Vertex};
@@ -38,6 +39,10 @@ pub(super) struct Channels<const N: usize> {
     at: [u32; N],
     step: [u32; N],
 }
+
+/// Channels that are divided at each pixel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Divided<'a, const N: usize>(pub(super) Followed<'a, N>);
 
 impl<const N: usize> Lanes<N> {
     /// The planes through three vertices whose varyings are in `[0, 1]`, where they have some.
@@ -118,5 +123,21 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N>
         for (at, step) in self.at.iter_mut().zip(self.step) {
             *at = at.wrapping_add(step);
         }
+    }
+}
+
+impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Divided<'_, N> {
+    #[inline]
+    fn color(&self, fragment: &F, _: i32, _: i32) -> C {
+        let mut word = 0;
+        for (lane, at) in F::LANES.iter().flatten().zip(self.0.fractions()) {
+            word |= at >> (24 - lane.width) << lane.place;
+        }
+        fragment.shade_lanes(word)
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        Run::step(&mut self.0);
     }
 }

@@ -15,9 +15,11 @@
 //! `2^e` is the range of `u` over the triangle, or 2^11 raw steps where that is less: an error is then below a step.
 
 use super::{Run, Varying};
+use crate::color::Lane;
 use crate::math::{bits, high_product, normalized, reciprocal, signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Position, ScaleOf, Snap, Vertex};
+use core::hint::black_box;
 use fixed::types::I16F16;
 
 /// `q` of no covered pixel is below this, but for a plane's error.
@@ -65,7 +67,51 @@ impl<const N: usize> Quotients<N> {
     pub(crate) fn new<T: Snap, const P: usize>(
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
+        origin: (i32, i32),
+    ) -> Option<Self> {
+        Self::of(slopes, vertices, origin, |_, values| {
+            let varying = Varying::new(values, [0; 3]);
+            // So that u_0 has room beside its fraction.
+            let length = 32 - normalized(varying.base.unsigned_abs() | 1).1;
+            let e = varying.exponent.max(length.saturating_sub(6));
+            if e > 23 || (e > 11 && e > varying.exponent) {
+                return None;
+            }
+            let cut = e - varying.exponent;
+            let fraction = 24 - e;
+            let base = (varying.base << fraction) + (1 << fraction >> 1);
+            Some((varying.differences.map(|d| d >> cut << 1), (base, fraction)))
+        })
+    }
+
+    /// The same of colour channels, each in parts of `2^bits` of its own steps: 24 bits of fraction, with half a step.
+    #[inline(never)]
+    pub(crate) fn channels<T: Snap, const P: usize>(
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
+        origin: (i32, i32),
+        lanes: [Lane; N],
+    ) -> Option<Self> {
+        Self::of(slopes, vertices, origin, |i, values| {
+            let lane = lanes.get(i)?;
+            if values.iter().any(|&u| unsigned(u) > 1 << 16) {
+                return None;
+            }
+            // u max 2^(31 - bits): below 2^31.
+            let scale = ((1 << lane.bits) - 1) << (15 - lane.bits);
+            let [u, v, w] = values;
+            let base = ((unsigned(u) * unsigned(scale)) >> 7) + (1 << (23 - lane.bits));
+            Some(([(v - u) * scale, (w - u) * scale], (signed(base), 24)))
+        })
+    }
+
+    /// The planes of numerators whose differences in Q31, and first value and its fraction, are `each` of a varying's.
+    #[inline(always)]
+    fn of<T: Snap, const P: usize>(
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
         (left, top): (i32, i32),
+        each: impl Fn(usize, [i32; 3]) -> Option<([i32; 2], (i32, u32))>,
     ) -> Option<Self> {
         let q = nearness(vertices)?;
         let least = q[0].min(q[1]).min(q[2]);
@@ -77,22 +123,13 @@ impl<const N: usize> Quotients<N> {
         let mut all =
             Self { q: plane.moved(left, top), n: [Plane::default(); N], each: [(0, 0); N] };
         let [a, b, c] = vertices.map(|v| &v.varyings);
-        let varyings = a.iter().zip(b).zip(c);
-        for ((n, each), ((a, b), c)) in all.n.iter_mut().zip(&mut all.each).zip(varyings) {
-            let varying = Varying::new([a, b, c].map(|u: &I16F16| u.to_bits()), [0; 3]);
-            // So that u_0 has room beside its fraction.
-            let length = 32 - normalized(varying.base.unsigned_abs() | 1).1;
-            let e = varying.exponent.max(length.saturating_sub(6));
-            if e > 23 || (e > 11 && e > varying.exponent) {
-                return None;
-            }
-            let cut = e - varying.exponent;
-            // In units of 2.
-            let half = |d: i32, q: i32| high_product(d, q) << 1 >> cut;
-            let [d1, d2] = varying.differences;
-            *n = slopes.plane(0, [half(d1, q1), half(d2, q2)])?.moved(left, top);
-            let fraction = 24 - e;
-            *each = ((varying.base << fraction) + (1 << fraction >> 1), fraction);
+        let varyings = a.iter().zip(b).zip(c).enumerate();
+        for ((n, start), (i, ((a, b), c))) in all.n.iter_mut().zip(&mut all.each).zip(varyings) {
+            let ([d1, d2], first) = each(i, [a.to_bits(), b.to_bits(), c.to_bits()])?;
+            *start = first;
+            // The high word is in units of 2.
+            let differences = [high_product(d1, q1), high_product(d2, q2)];
+            *n = slopes.plane(0, differences)?.moved(left, top);
         }
         Some(all)
     }
@@ -105,6 +142,18 @@ impl<const N: usize> Quotients<N> {
         // 2^(63 + zeros) / (q 2^zeros) is in [2^31, 2^32); zeros is 1 to 6.
         let r = signed(reciprocal(divisor) >> (7 - zeros));
         Followed { of: self, r, q, n: self.n.map(|n| n.signed_at(x, y)) }
+    }
+}
+
+impl<const N: usize> Followed<'_, N> {
+    /// Colour channels with 24 bits of fraction.
+    #[inline]
+    pub(crate) fn fractions(&self) -> [u32; N] {
+        let mut fractions = [0; N];
+        for ((fraction, n), (base, _)) in fractions.iter_mut().zip(self.n).zip(self.of.each) {
+            *fraction = unsigned(base.wrapping_add(high_product(n, self.r)));
+        }
+        fractions
     }
 }
 
@@ -128,6 +177,7 @@ impl<const N: usize> Run<N> for Followed<'_, N> {
         // x = q r / 2^56 - 1 in Q32, the 1 in the bits above; then 1 / (1 + x) is 1 - x + x^2 and x^3.
         let x = high_product(self.q, self.r) << 8;
         let correction = x.wrapping_sub(high_product(x, x));
-        self.r = self.r.wrapping_sub(high_product(self.r, correction));
+        // Through memory, so that it is not kept as 64 bits.
+        self.r = black_box(self.r.wrapping_sub(high_product(self.r, correction)));
     }
 }
