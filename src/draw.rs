@@ -2,6 +2,7 @@
 
 mod flat;
 mod frame;
+mod homogeneous;
 mod lanes;
 mod projected;
 mod shade;
@@ -181,6 +182,9 @@ where
         }
         let cut = self.cuts::<N>(a | b | c);
         if let Some(outcome) = self.draw_projected(vertices, a | b | c, fragment) {
+            return outcome;
+        }
+        if let Some(outcome) = self.draw_homogeneous(vertices, cut, fragment) {
             return outcome;
         }
         // By reference: it is large.

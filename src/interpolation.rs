@@ -24,6 +24,7 @@
 //! of 64 bits a varying, whose high word is the value.
 
 mod plane;
+mod quotient;
 
 use crate::clip::{Hither, WRange};
 use crate::math::{Factor, Scale, low, reciprocal, saturate, shr_round};
@@ -32,6 +33,7 @@ use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
 pub(crate) use plane::{Line, Linear, Pieces, is_straight, nearness_of, wrapped};
+pub(crate) use quotient::{Followed, Quotients};
 
 /// Pixels that are stepped from one exact start, where each is divided.
 pub(crate) const BLOCK: i32 = 64;
@@ -399,7 +401,9 @@ fn weight_step(scale: Scale, edge: i64) -> i64 {
 
 /// Whether the vertices have the same `w`, to the bit, so that `q` is constant.
 #[inline]
-fn same_w<T: Snap, const N: usize, const P: usize>([a, b, c]: [&Vertex<T, N, P>; 3]) -> bool {
+pub(crate) fn same_w<T: Snap, const N: usize, const P: usize>(
+    [a, b, c]: [&Vertex<T, N, P>; 3],
+) -> bool {
     let w = |v: &Vertex<T, N, P>| {
         let ScaleOf(k) = v.position.scale();
         (k, v.position.scaled_w())

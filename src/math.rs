@@ -65,6 +65,45 @@ pub(crate) const fn unsigned(v: i32) -> u32 {
     v as u32
 }
 
+/// `p s - q t`, for `p` and `q` of at most `2^21` in magnitude.
+#[inline]
+pub(crate) fn cross(p: i32, s: i32, q: i32, t: i32) -> i64 {
+    if SMALL_CORE {
+        cross_split(p, s, q, t)
+    } else {
+        i64::from(p) * i64::from(s) - i64::from(q) * i64::from(t)
+    }
+}
+
+/// [`cross`] in products of 32 bits, where one of 64 is a call of 37 instructions.
+///
+/// `p` and `q` in 11 bits and 10 above them, `s` and `t` in 16 and 16: a product takes 27 bits, a difference of two 28.
+#[inline]
+fn cross_split(p: i32, s: i32, q: i32, t: i32) -> i64 {
+    let ([p1, p0], [q1, q0]) = ([p >> 11, p & 0x7ff], [q >> 11, q & 0x7ff]);
+    let ([s1, s0], [t1, t0]) = ([s >> 16, s & 0xffff], [t >> 16, t & 0xffff]);
+    let low = i64::from(p0 * s0 - q0 * t0) + (i64::from(p1 * s0 - q1 * t0) << 11);
+    let high = i64::from(p0 * s1 - q0 * t1) + (i64::from(p1 * s1 - q1 * t1) << 11);
+    low + (high << 16)
+}
+
+/// The high 32 bits of a product: `a b / 2^32`, floored.
+#[inline]
+pub(crate) fn high_product(a: i32, b: i32) -> i32 {
+    if SMALL_CORE { high_product_split(a, b) } else { low((i64::from(a) * i64::from(b)) >> 32) }
+}
+
+/// [`high_product`] in products of 32 bits. The sums on the way are below `2^31`, as `2^15 (2^16 - 1) + 2^16` is but for
+/// `-2^31`, where the first is negative.
+#[inline]
+fn high_product_split(a: i32, b: i32) -> i32 {
+    let ([a1, a0], [b1, b0]) = ([a >> 16, a & 0xffff], [b >> 16, b & 0xffff]);
+    let rest = unsigned(a0).wrapping_mul(unsigned(b0)) >> 16;
+    let middle = a1 * b0 + signed(rest);
+    let other = a0 * b1 + (middle & 0xffff);
+    a1 * b1 + (middle >> 16) + (other >> 16)
+}
+
 /// First approximations of `2^40 / m` for `m` in `[2^31, 2^32)`, by the seven bits below the
 /// leading one: `round(2^17 / (257 + 2 i)) - 256`, which is off by at most 1 part in 2^8.
 const SEED: [u8; 128] = seed();
@@ -403,6 +442,30 @@ mod tests {
             assert_eq!(normalized(v), (v << zeros, zeros), "{v}");
         }
         assert_eq!((normalized(0), normalized_by_halves(0)), ((0, 0), (0, 31)));
+    }
+
+    #[test]
+    fn crosses_of_small_cores_are_the_same() {
+        let narrow = [-(1 << 21), -(1 << 20), -77_777, -1, 0, 1, 2047, 2048, 1 << 20, 1 << 21];
+        let wide = [i32::MIN, -(1 << 20), -65_537, -1, 0, 1, 65_535, 65_536, 1 << 30, i32::MAX];
+        for i in 0..10_000usize {
+            let at = |n: u32| i / 10usize.pow(n) % 10;
+            let (p, s, q, t) = (narrow[at(0)], wide[at(1)], narrow[at(2)], wide[at(3)]);
+            let exact = i64::from(p) * i64::from(s) - i64::from(q) * i64::from(t);
+            assert_eq!((cross(p, s, q, t), cross_split(p, s, q, t)), (exact, exact));
+        }
+    }
+
+    #[test]
+    fn high_products_of_small_cores_are_the_same() {
+        let ends = [i32::MIN, i32::MIN + 1, -65_537, -65_536, -1, 0, 1, 65_535, 65_536, i32::MAX];
+        let spread = (0..100).map(|i: i32| i.wrapping_mul(-1_640_531_527));
+        for a in ends.into_iter().chain(spread.clone()) {
+            for b in ends.into_iter().chain(spread.clone()) {
+                let exact = low((i64::from(a) * i64::from(b)) >> 32);
+                assert_eq!((high_product(a, b), high_product_split(a, b)), (exact, exact));
+            }
+        }
     }
 
     #[test]

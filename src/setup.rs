@@ -16,12 +16,14 @@ mod exact;
 mod outline;
 mod plane;
 mod quick;
+mod slopes;
 
-pub(crate) use outline::{Corner, Outline, doubled_area, shows};
+pub(crate) use exact::{Anchored, determinant, outline};
+pub(crate) use outline::{Corner, Outline, Place, doubled_area, shows};
 pub(crate) use plane::{Plane, Slopes};
 
 use crate::math::Scale;
-use crate::vertex::{Rect, Snap, Viewport};
+use crate::vertex::{ExactPosition, Rect, Snap, Viewport};
 
 /// A tier: how vertices are snapped, and how triangles are set up from them.
 ///
@@ -39,6 +41,14 @@ pub trait Tier: Snap {
     /// The corners in subpixels, y down, where all three vertices are projected.
     #[doc(hidden)]
     fn projected(vertices: [&Self::Position; 3]) -> Option<[[i32; 2]; 3]>;
+
+    /// The vertices on the exact tier's grid, where that is the tier's.
+    #[doc(hidden)]
+    #[inline]
+    #[must_use]
+    fn homogeneous(_: [&Self::Position; 3]) -> Option<[&ExactPosition; 3]> {
+        None
+    }
 
     /// The determinant, adjugate and box of a triangle.
     #[doc(hidden)]
@@ -66,6 +76,18 @@ pub enum Cull {
     Front,
     /// Back faces are not drawn: right for closed meshes seen from outside.
     Back,
+}
+
+impl Facing {
+    /// Of the determinant of three vertices in clip space; `None` where it is 0.
+    #[inline]
+    pub(crate) const fn of(determinant: i64) -> Option<Self> {
+        match determinant {
+            0 => None,
+            1.. => Some(Self::Front),
+            _ => Some(Self::Back),
+        }
+    }
 }
 
 impl Cull {

@@ -12,9 +12,11 @@
 //! edge on a pixel centre (`E = 0`) belongs to the triangle if it is a top or a left edge;
 //! subtracting 1 from any other beforehand makes all of them `E >= 0`.
 
+mod exact;
 mod rows;
 mod side;
 
+pub(crate) use exact::Stepped;
 pub(crate) use rows::{Half, Halves};
 
 /// How the edges of projected triangles are followed. On ARMv6-M a division is a call of 200 instructions, and

@@ -4,8 +4,8 @@ use super::{Frame, Outcome};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
 use crate::math::{SMALL_CORE, index};
-use crate::setup::{Outline, Tier};
-use crate::traversal::{Halves, ProjectedSide, Short};
+use crate::setup::{Anchored, Outline, Tier};
+use crate::traversal::{Halves, ProjectedSide, Short, Side, Stepped};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
@@ -28,11 +28,11 @@ where
         if whole.is_empty() {
             return Outcome::OffScreen;
         }
-        let color = self.color_of(whole, fragment);
+        let color = self.uniform(whole, fragment);
         if !SMALL_CORE && Short::fits(whole) {
             self.fill_short(&outline.moved(-whole.x0, T::SUBPIXEL_BITS), whole, color);
         } else {
-            self.fill_long(outline, whole, color);
+            self.fill_long::<ProjectedSide>(outline, whole, color);
         }
         Outcome::Drawn
     }
@@ -52,14 +52,39 @@ where
         if bounds.is_empty() {
             return Outcome::OffScreen;
         }
-        let color = self.color_of(bounds, fragment);
-        self.fill_clipped(outline, bounds, color);
+        let color = self.uniform(bounds, fragment);
+        self.fill_clipped::<ProjectedSide>(outline, bounds, color);
         Outcome::Drawn
     }
 
-    /// The colour of a triangle that has one.
+    /// Fills a triangle on the screen in the exact tier.
     #[inline]
-    fn color_of<F, const N: usize>(&self, bounds: Rect, fragment: &F) -> C::Color
+    pub(super) fn fill_homogeneous<F, const N: usize>(
+        &mut self,
+        outline: &Outline<Anchored>,
+        fragment: &F,
+    ) -> Outcome
+    where
+        F: Fragment<C::Color, N>,
+    {
+        let window = self.window();
+        let whole = outline.bounds();
+        let bounds = whole.intersect(window);
+        if bounds.is_empty() {
+            return Outcome::OffScreen;
+        }
+        let color = self.uniform(bounds, fragment);
+        if bounds.x0 == whole.x0 && bounds.x1 == whole.x1 {
+            self.fill_long::<Stepped>(outline, bounds, color);
+        } else {
+            self.fill_clipped::<Stepped>(outline, bounds, color);
+        }
+        Outcome::Drawn
+    }
+
+    /// The one colour of a fragment that has one.
+    #[inline]
+    fn uniform<F, const N: usize>(&self, bounds: Rect, fragment: &F) -> C::Color
     where
         F: Fragment<C::Color, N>,
     {
@@ -81,9 +106,9 @@ where
 
     /// Fills the rows of `bounds`, which has all columns.
     #[inline(always)]
-    fn fill_long(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
+    fn fill_long<S: Side>(&mut self, outline: &Outline<S::Corner>, bounds: Rect, color: C::Color) {
         let bits = T::SUBPIXEL_BITS;
-        let mut halves = Halves::<ProjectedSide>::new(outline, bounds, bits);
+        let mut halves = Halves::<S>::new(outline, bounds, bits);
         while let Some((y, mut half)) = halves.next() {
             self.target.fill_rows(0, index(y), &mut half, color);
             halves.resume(half);
@@ -92,9 +117,14 @@ where
 
     /// Fills what is inside of `bounds`.
     #[inline(always)]
-    fn fill_clipped(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
+    fn fill_clipped<S: Side>(
+        &mut self,
+        outline: &Outline<S::Corner>,
+        bounds: Rect,
+        color: C::Color,
+    ) {
         let bits = T::SUBPIXEL_BITS;
-        let mut halves = Halves::<ProjectedSide>::new(outline, bounds, bits);
+        let mut halves = Halves::<S>::new(outline, bounds, bits);
         while let Some((y, mut half)) = halves.next() {
             let runs = half.by_ref().map(|(x0, x1)| (x0.max(bounds.x0), x1.min(bounds.x1)));
             self.target.fill_rows(0, index(y), runs, color);

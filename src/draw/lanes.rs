@@ -8,6 +8,7 @@
 use super::shade::Pixels;
 use crate::color::Lane;
 use crate::fragment::Fragment;
+use crate::interpolation::{Followed, Run};
 use crate::math::{bits, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Snap, Vertex};
@@ -30,6 +31,18 @@ pub(super) struct Word {
     pub(super) at: u32,
     pub(super) step: u32,
 }
+
+/// The same channels along a row, each stepped by itself with all bits of its plane: within half a step of the colour and
+/// what the plane is off.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Channels<const N: usize> {
+    at: [u32; N],
+    step: [u32; N],
+}
+
+/// Channels that are divided at each pixel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Divided<'a, const N: usize>(pub(super) Followed<'a, N>);
 
 impl<const N: usize> Lanes<N> {
     /// The planes through three vertices whose varyings are in `[0, 1]`, where they have some.
@@ -57,6 +70,15 @@ impl<const N: usize> Lanes<N> {
         Some(all)
     }
 
+    /// The channels from a pixel on.
+    #[inline]
+    pub(super) fn channels(&self, x: i32, y: i32) -> Channels<N> {
+        Channels {
+            at: self.each.map(|(_, plane)| plane.at(x, y)),
+            step: self.each.map(|(_, plane)| plane.x),
+        }
+    }
+
     /// The lanes from a pixel on.
     #[inline]
     pub(super) fn word(&self, x: i32, y: i32) -> Word {
@@ -77,6 +99,40 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
     #[inline]
     fn step(&mut self) {
         self.at = self.at.wrapping_add(self.step);
+    }
+}
+
+impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N> {
+    #[inline]
+    fn color(&self, fragment: &F, _: i32, _: i32) -> C {
+        let mut word = 0;
+        for (lane, at) in F::LANES.iter().flatten().zip(self.at) {
+            word |= at >> (32 - lane.width) << lane.place;
+        }
+        fragment.shade_lanes(word)
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        for (at, step) in self.at.iter_mut().zip(self.step) {
+            *at = at.wrapping_add(step);
+        }
+    }
+}
+
+impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Divided<'_, N> {
+    #[inline]
+    fn color(&self, fragment: &F, _: i32, _: i32) -> C {
+        let mut word = 0;
+        for (lane, at) in F::LANES.iter().flatten().zip(self.0.fractions()) {
+            word |= at >> (24 - lane.width) << lane.place;
+        }
+        fragment.shade_lanes(word)
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        Run::step(&mut self.0);
     }
 }
 

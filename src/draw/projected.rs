@@ -12,7 +12,7 @@ use crate::interpolation::{
     Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of, wrapped,
 };
 use crate::math::{index, unsigned};
-use crate::setup::{Plane, Slopes, Tier};
+use crate::setup::{Corner, Plane, Slopes, Tier};
 use crate::span::Span;
 use crate::traversal::{Half, Halves, ProjectedSide, Short, Side};
 use crate::vertex::{Outside, Vertex};
@@ -20,21 +20,21 @@ use core::hint::black_box;
 use core::marker::PhantomData;
 
 /// A shape with its depth.
-struct Deep {
-    shape: Shape,
-    depth: Plane,
+pub(super) struct Deep<C = Corner> {
+    pub(super) shape: Shape<C>,
+    pub(super) depth: Plane,
 }
 
 /// Where a shape's rows are.
-struct Row<'a, F, S> {
+struct Row<'a, F, S: Side> {
     frame: &'a mut F,
-    shape: &'a Deep,
+    shape: &'a Deep<S::Corner>,
     half: Half<S>,
     y: i32,
 }
 
 /// What a triangle's pixels are made from, a block of a row at a time.
-trait Rows<const N: usize> {
+pub(super) trait Rows<const N: usize> {
     /// How the pixels of a block are made.
     type Block;
     /// What the next block of a row goes on from.
@@ -139,8 +139,12 @@ where
 
     /// Draws the pixels of a shape, whose edges are followed by `S`.
     #[inline(never)]
-    fn draw_halves<S, F, R, const N: usize>(&mut self, shape: &Deep, rows: &R, fragment: &F)
-    where
+    pub(super) fn draw_halves<S, F, R, const N: usize>(
+        &mut self,
+        shape: &Deep<S::Corner>,
+        rows: &R,
+        fragment: &F,
+    ) where
         S: Side,
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,

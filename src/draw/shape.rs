@@ -1,13 +1,13 @@
-//! The outline of a projected triangle, and how its edges are followed.
+//! The outline of a triangle on the screen, and how its edges are followed.
 
 use crate::math::SMALL_CORE;
-use crate::setup::Outline;
+use crate::setup::{Corner, Outline};
 use crate::traversal::Short;
 use crate::vertex::Rect;
 
-/// A projected triangle on its way to pixels, in the target's.
-pub(super) struct Shape {
-    pub(super) outline: Outline,
+/// A triangle on the screen on its way to pixels, in the target's.
+pub(super) struct Shape<C = Corner> {
+    pub(super) outline: Outline<C>,
     /// What may be covered of the window.
     pub(super) bounds: Rect,
     pub(super) follow: Follow,

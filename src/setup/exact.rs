@@ -11,16 +11,122 @@
 //!
 //! One pixel outside of the viewport, as far as a walk looks, adds less than 2^52. All fit `i64`.
 
-use super::{Extent, Facing, Setup, Tier, bounds};
-use crate::math::Scale;
-use crate::vertex::{Exact, ExactPosition, Viewport};
+use super::{Extent, Facing, Outline, Place, Setup, Tier, bounds};
+use crate::math::{Scale, cross, unsigned};
+use crate::vertex::{Exact, ExactPosition, Rect, Viewport};
+
+/// How the edge function of two vertices grows along a row of the screen.
+#[inline]
+pub(super) fn row_minor(p: &ExactPosition, q: &ExactPosition) -> i64 {
+    cross(p.y, q.w, p.w, q.y)
+}
+
+/// How the edge function of two vertices grows up a column of the screen.
+#[inline]
+pub(super) fn column_minor(p: &ExactPosition, q: &ExactPosition) -> i64 {
+    cross(p.w, q.x, p.x, q.w)
+}
 
 /// The cross product of two vertices: the line through both.
 #[inline]
 fn minor(p: &ExactPosition, q: &ExactPosition) -> [i64; 3] {
-    let [px, py, pw] = [p.x, p.y, p.w].map(i64::from);
-    let [qx, qy, qw] = [q.x, q.y, q.w].map(i64::from);
-    [py * qw - pw * qy, pw * qx - px * qw, px * qy - py * qx]
+    [row_minor(p, q), column_minor(p, q), cross(p.x, q.y, p.y, q.x)]
+}
+
+/// The determinant of three vertices: its sign is the facing. Of all that setup makes it is the first, since half of
+/// a mesh's triangles look away.
+#[inline(never)]
+pub(crate) fn determinant([p, q, r]: [&ExactPosition; 3]) -> i64 {
+    let [a, b, c] = minor(q, r);
+    i64::from(p.x) * a + i64::from(p.y) * b + i64::from(p.w) * c
+}
+
+impl ExactPosition {
+    /// How far past the centre of its pixel it is, in pixels times `2 w`: within `-2 w < x, y <= 0` where the vertex is on the screen.
+    ///
+    /// Each is a difference of two terms of at most `2^30 + 2^20`, neither of them negative there.
+    #[inline]
+    pub(super) const fn past_centre(&self, viewport: &Viewport) -> [i32; 2] {
+        let (column, row) = (self.column as i32, self.row as i32);
+        [
+            viewport.width * (self.x + self.w) - (2 * column + 1) * self.w,
+            viewport.height * (self.w - self.y) - (2 * row + 1) * self.w,
+        ]
+    }
+}
+
+/// A vertex on the screen, from the pixel that it is in or just before: it is `(x, y) / (2 w)` pixels from the centre
+/// of pixel `(column, row)`, exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Anchored {
+    /// `-2 w < x <= 0`, and `y` as well: no centre is between.
+    pub(crate) x: i32,
+    pub(crate) y: i32,
+    /// 1 to `2^20`.
+    pub(crate) w: i32,
+    /// In the target's pixels; at most 512 from those of other vertices.
+    pub(crate) column: i32,
+    pub(crate) row: i32,
+}
+
+impl Anchored {
+    /// A vertex with `w > 0`; `None` where its column or row is not its own: it is off the screen, or was snapped for
+    /// another viewport.
+    #[inline]
+    fn new(p: &ExactPosition, viewport: &Viewport) -> Option<Self> {
+        let [x, y] = p.past_centre(viewport);
+        let before = |v: i32| unsigned(v.wrapping_neg()) < unsigned(2 * p.w);
+        let (left, top) = viewport.origin;
+        (before(x) && before(y)).then_some(Self {
+            x,
+            y,
+            w: p.w,
+            column: i32::from(p.column) + left,
+            row: i32::from(p.row) + top,
+        })
+    }
+
+    /// From another vertex's pixel, in half units of `1 / w`: at most `2^30 + 2^21`.
+    #[inline]
+    pub(crate) const fn from(&self, other: &Self) -> [i32; 2] {
+        let (columns, rows) = (self.column - other.column, self.row - other.row);
+        [self.x + 2 * self.w * columns, self.y + 2 * self.w * rows]
+    }
+}
+
+impl Place for Anchored {
+    #[inline]
+    fn row(self, _: u32) -> i32 {
+        self.row
+    }
+}
+
+/// The outline of a triangle of three vertices with `w > 0`; `None` where one is not [`Anchored`].
+#[inline(never)]
+pub(crate) fn outline(
+    vertices: [&ExactPosition; 3],
+    facing: Facing,
+    viewport: &Viewport,
+) -> Option<Outline<Anchored>> {
+    // Those of a row have no centre between them, and may be in any order.
+    let Outline { corners, turns_right } =
+        Outline::sorted(vertices, facing == Facing::Back, |v| i32::from(v.row));
+    let [top, middle, bottom] = corners.map(|v| Anchored::new(v, viewport));
+    Some(Outline { corners: [top?, middle?, bottom?], turns_right })
+}
+
+impl Outline<Anchored> {
+    /// The box of the pixel centres it may cover.
+    #[inline]
+    pub(crate) fn bounds(&self) -> Rect {
+        let [p, q, r] = &self.corners;
+        Rect {
+            x0: p.column.min(q.column).min(r.column),
+            y0: p.row,
+            x1: p.column.max(q.column).max(r.column),
+            y1: r.row,
+        }
+    }
 }
 
 /// What the bounding box needs of a vertex: pixel space, `(W (x + w), H (w - y), 2 w)`.
@@ -43,15 +149,17 @@ impl Tier for Exact {
         None
     }
 
+    #[inline]
+    fn homogeneous(vertices: [&ExactPosition; 3]) -> Option<[&ExactPosition; 3]> {
+        Some(vertices)
+    }
+
     #[inline(never)]
     fn set_up([p, q, r]: [&ExactPosition; 3], viewport: &Viewport) -> Option<Setup> {
         let minors = [minor(q, r), minor(r, p), minor(p, q)];
         let [a, b, c] = minors[0];
         let determinant = i64::from(p.x) * a + i64::from(p.y) * b + i64::from(p.w) * c;
-        if determinant == 0 {
-            return None;
-        }
-        let facing = if determinant > 0 { Facing::Front } else { Facing::Back };
+        let facing = Facing::of(determinant)?;
         let (w, h) = (i64::from(viewport.width), i64::from(viewport.height));
         let sign = determinant.signum();
         // E = W H e . P in half pixels: a H (2 X + 1 - W) + b W (H - 1 - 2 Y) + c W H.

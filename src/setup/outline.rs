@@ -23,10 +23,23 @@ impl Corner {
     }
 }
 
-/// The corners of a projected triangle from the top down.
+/// A corner that a triangle's rows begin or end at.
+pub(crate) trait Place: Copy + core::fmt::Debug {
+    /// The first row whose centre is not above it, where its coordinates have `bits` subpixel bits.
+    fn row(self, bits: u32) -> i32;
+}
+
+impl Place for Corner {
+    #[inline]
+    fn row(self, bits: u32) -> i32 {
+        Self::row(self, bits)
+    }
+}
+
+/// The corners of a triangle from the top down.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Outline {
-    pub(crate) corners: [Corner; 3],
+pub(crate) struct Outline<C = Corner> {
+    pub(crate) corners: [C; 3],
     /// The middle corner is right of the line between the other two.
     pub(crate) turns_right: bool,
 }
@@ -65,25 +78,33 @@ pub(crate) const fn first_centre(v: i32, bits: u32) -> i32 {
     (v + ((1 << bits) / 2 - 1)) >> bits
 }
 
-impl Outline {
-    /// From corners in subpixels, and the sign of their doubled area.
+impl<C: Copy> Outline<C> {
+    /// Corners in the order of their heights, of a triangle that is clockwise on the screen or not.
     #[inline]
-    pub(crate) fn new(points: &[[i32; 2]; 3], clockwise: bool) -> Self {
-        let [mut top, mut middle, mut bottom] = points.map(|[x, y]| Corner { x, y });
+    pub(crate) fn sorted(corners: [C; 3], clockwise: bool, height: impl Fn(&C) -> i32) -> Self {
+        let [mut top, mut middle, mut bottom] = corners;
         let mut turns_right = clockwise;
-        if middle.y < top.y {
+        if height(&middle) < height(&top) {
             swap(&mut top, &mut middle);
             turns_right = !turns_right;
         }
-        if bottom.y < middle.y {
+        if height(&bottom) < height(&middle) {
             swap(&mut middle, &mut bottom);
             turns_right = !turns_right;
-            if middle.y < top.y {
+            if height(&middle) < height(&top) {
                 swap(&mut top, &mut middle);
                 turns_right = !turns_right;
             }
         }
         Self { corners: [top, middle, bottom], turns_right }
+    }
+}
+
+impl Outline {
+    /// From corners in subpixels, and the sign of their doubled area.
+    #[inline]
+    pub(crate) fn new(points: &[[i32; 2]; 3], clockwise: bool) -> Self {
+        Self::sorted(points.map(|[x, y]| Corner { x, y }), clockwise, |corner| corner.y)
     }
 
     /// The same, whole pixels further to the right.

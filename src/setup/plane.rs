@@ -1,4 +1,4 @@
-//! Linear functions over a projected triangle, in 32 bits: depth, varyings, colours.
+//! Linear functions over a triangle on the screen, in 32 bits: depth, varyings, colours.
 //!
 //! With `d_i = v_i - v_0` and `D` the doubled area, `v = v_0 + (d_1 E_1 + d_2 E_2) / D`. All that is divided is
 //! `D`, once a triangle ([`Slopes`]); each function then takes two gradients ([`Plane`]).
@@ -26,21 +26,21 @@ use super::doubled_area;
 use crate::math::{high, low, normalized, product, reciprocal, signed, unsigned};
 use crate::vertex::Rect;
 
-/// What turns differences over a projected triangle into gradients.
+/// What turns differences over a triangle into gradients.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slopes {
     /// Of `E_1` and `E_2`, to the right, times `2^k`.
-    across: [i32; 2],
+    pub(super) across: [i32; 2],
     /// Down.
-    down: [i32; 2],
+    pub(super) down: [i32; 2],
     /// `R`, with the sign of the area.
-    inverse: i32,
+    pub(super) inverse: i32,
     /// `t`: gradients are multiples of `2^steep`.
-    steep: u32,
+    pub(super) steep: u32,
     /// From vertex 0 to the centre of its pixel, times `2^31`.
-    back: [i32; 2],
+    pub(super) back: [i32; 2],
     /// Vertex 0's pixel.
-    pixel: [i32; 2],
+    pub(super) pixel: [i32; 2],
 }
 
 /// A linear function on the screen, modulo 2^32.

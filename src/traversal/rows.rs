@@ -1,4 +1,4 @@
-//! The rows of a projected triangle: two edges at a time.
+//! The rows of a triangle whose corners are all on the screen: two edges at a time.
 //!
 //! An edge is taken from its upper to its lower corner, whatever side of the triangle it is on: a
 //! left edge begins its spans at the first pixel whose centre is at or right of it, a right edge
@@ -7,7 +7,7 @@
 //! on the lower one's do not.
 
 use super::side::Side;
-use crate::setup::Outline;
+use crate::setup::{Outline, Place};
 use crate::vertex::Rect;
 
 /// A run of rows between the same two edges: its spans from the top, some of them empty.
@@ -40,8 +40,8 @@ impl<S: Side> Iterator for Half<S> {
 /// A loop over them rather than a call for each, so that what is done with the rows stands once in the code, and
 /// the edges stay in registers.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Halves<'a, S> {
-    outline: &'a Outline,
+pub(crate) struct Halves<'a, S: Side> {
+    outline: &'a Outline<S::Corner>,
     bits: u32,
     long: S,
     y: i32,
@@ -51,7 +51,7 @@ pub(crate) struct Halves<'a, S> {
 impl<'a, S: Side> Halves<'a, S> {
     /// The rows `bounds.y0 .. bounds.y1` of a triangle, which has them all, and at least one.
     #[inline(always)]
-    pub(crate) fn new(outline: &'a Outline, bounds: Rect, bits: u32) -> Self {
+    pub(crate) fn new(outline: &'a Outline<S::Corner>, bounds: Rect, bits: u32) -> Self {
         let [top, _, bottom] = outline.corners;
         let long = S::new(top, bottom, bounds.y0, bits);
         Self { outline, bits, long, y: bounds.y0, end: bounds.y1 }
@@ -83,7 +83,7 @@ impl<'a, S: Side> Halves<'a, S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::doubled_area;
+    use crate::setup::{Corner, doubled_area};
     use crate::traversal::side::{Digital, Line, Short};
     use std::vec::Vec;
 
@@ -114,7 +114,7 @@ mod tests {
         follows_by::<Digital>(p, bits, y0, y1);
     }
 
-    fn follows_by<S: Side>(p: [[i32; 2]; 3], bits: u32, y0: i32, y1: i32) {
+    fn follows_by<S: Side<Corner = Corner>>(p: [[i32; 2]; 3], bits: u32, y0: i32, y1: i32) {
         let area = doubled_area(&p);
         if area == 0 {
             return;

@@ -20,19 +20,22 @@
 //! instructions a row.
 
 use crate::math::{low, signed, unsigned};
-use crate::setup::Corner;
+use crate::setup::{Corner, Place};
 use crate::vertex::Rect;
 
 /// An edge on one row.
 pub(crate) trait Side: Copy + core::fmt::Debug {
+    /// What it goes between.
+    type Corner: Place;
+
     /// Whether a triangle's rows may reach out of the window they are drawn in.
     const WINDOWED: bool;
 
     /// The edge from `upper` to `lower` in subpixels of `bits` bits on row `row`, which it has.
-    fn new(upper: Corner, lower: Corner, row: i32, bits: u32) -> Self;
+    fn new(upper: Self::Corner, lower: Self::Corner, row: i32, bits: u32) -> Self;
 
     /// The first column whose centre is not left of the edge.
-    fn x(&self) -> i32;
+    fn x(&mut self) -> i32;
 
     /// The next row.
     fn step(&mut self);
@@ -105,6 +108,8 @@ impl Line {
 
 #[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
 impl Side for Line {
+    type Corner = Corner;
+
     const WINDOWED: bool = true;
 
     #[inline(always)]
@@ -125,7 +130,7 @@ impl Side for Line {
     }
 
     #[inline]
-    fn x(&self) -> i32 {
+    fn x(&mut self) -> i32 {
         low(self.at >> 32)
     }
 
@@ -162,6 +167,8 @@ impl Short {
 }
 
 impl Side for Short {
+    type Corner = Corner;
+
     const WINDOWED: bool = false;
 
     #[inline(always)]
@@ -175,7 +182,7 @@ impl Side for Short {
     }
 
     #[inline]
-    fn x(&self) -> i32 {
+    fn x(&mut self) -> i32 {
         self.at >> Self::FRACTION
     }
 
@@ -212,6 +219,8 @@ impl Digital {
 
 #[cfg(any(test, all(target_arch = "arm", not(target_has_atomic = "32"))))]
 impl Side for Digital {
+    type Corner = Corner;
+
     const WINDOWED: bool = true;
 
     #[inline]
@@ -227,7 +236,7 @@ impl Side for Digital {
     }
 
     #[inline]
-    fn x(&self) -> i32 {
+    fn x(&mut self) -> i32 {
         self.x
     }
 

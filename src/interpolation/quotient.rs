@@ -1,0 +1,179 @@
+//! Perspective of a triangle on the screen in the exact tier, divided at each pixel, by planes.
+//!
+//! `q`, in a unit of the triangle's own, is `1 / w`: the largest of the three is in `[2^30, 2^31)`, and none is below
+//! 2^26: a triangle of which one vertex is 16 times as far as another is drawn by its edge functions. A numerator is
+//! `n = (u - u_0) q / 2^e`, at most `q` in magnitude.
+//!
+//! The reciprocal `r = 2^56 / q` is followed along a row: a step of third order makes `1 + x^3` of one that is off by a part
+//! `x`, which is the change of `q` from pixel to pixel; where that is more than 5/128, there are no planes.
+//!
+//! Error budget of a value, in parts of 2^e:
+//! - both planes are off by less than 2^14.8 (`setup/slopes.rs`): 2 2^14.8 / 2^26 = 2^-10.2 at the farthest vertex, if it is
+//!   16 times as far as the nearest; a mesh's triangle, whose vertices are about as far as each other, has 2^-14;
+//! - the reciprocal's 2^-14, and 2^-23 of what is cut.
+//!
+//! `2^e` is the range of `u` over the triangle, or 2^11 raw steps where that is less: an error is then below a step.
+
+use super::{Run, Varying};
+use crate::color::Lane;
+use crate::math::{bits, high_product, normalized, reciprocal, signed, unsigned};
+use crate::setup::{Plane, Slopes};
+use crate::vertex::{Position, ScaleOf, Snap, Vertex};
+use core::hint::black_box;
+use fixed::types::I16F16;
+
+/// `q` of no covered pixel is below this, but for a plane's error.
+const LEAST: u32 = 1 << 26;
+
+/// Numerators and `q` of varyings that are divided at each pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Quotients<const N: usize> {
+    q: Plane,
+    n: [Plane; N],
+    /// `u_0` with half a step, in `2^(e - 24)` raw steps; and `24 - e`.
+    each: [(i32, u32); N],
+}
+
+/// Such varyings along a row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Followed<'a, const N: usize> {
+    of: &'a Quotients<N>,
+    /// `2^56 / q`.
+    r: i32,
+    q: i32,
+    n: [i32; N],
+}
+
+/// `1 / w` of three vertices in front of the eye, in a unit of their own; `None` where they are too different.
+fn nearness<T: Snap, const N: usize, const P: usize>(
+    vertices: [&Vertex<T, N, P>; 3],
+) -> Option<[u32; 3]> {
+    // The mantissa of 1 / w, and its exponent but for a constant.
+    let inverse = vertices.map(|v| {
+        let ScaleOf(k) = v.position.scale();
+        let (divisor, zeros) = normalized(unsigned(v.position.scaled_w()));
+        (reciprocal(divisor), k.exponent + bits(zeros))
+    });
+    let [(_, a), (_, b), (_, c)] = inverse;
+    let top = a.max(b).max(c);
+    let q = inverse.map(|(mantissa, exponent)| mantissa >> (unsigned(top - exponent).min(30) + 1));
+    let [a, b, c] = q;
+    (a.min(b).min(c) >= LEAST).then_some(q)
+}
+
+impl<const N: usize> Quotients<N> {
+    /// The planes through three vertices on the screen, where they have some.
+    #[inline(never)]
+    pub(crate) fn new<T: Snap, const P: usize>(
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
+    ) -> Option<Self> {
+        Self::of(slopes, vertices, |_, values| {
+            let varying = Varying::new(values, [0; 3]);
+            // So that u_0 has room beside its fraction.
+            let length = 32 - normalized(varying.base.unsigned_abs() | 1).1;
+            let e = varying.exponent.max(length.saturating_sub(6));
+            if e > 23 || (e > 11 && e > varying.exponent) {
+                return None;
+            }
+            let cut = e - varying.exponent;
+            let fraction = 24 - e;
+            let base = (varying.base << fraction) + (1 << fraction >> 1);
+            Some((varying.differences.map(|d| d >> cut << 1), (base, fraction)))
+        })
+    }
+
+    /// The same of colour channels, each in parts of `2^bits` of its own steps: 24 bits of fraction, with half a step.
+    #[inline(never)]
+    pub(crate) fn channels<T: Snap, const P: usize>(
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
+        lanes: [Lane; N],
+    ) -> Option<Self> {
+        Self::of(slopes, vertices, |i, values| {
+            let lane = lanes.get(i)?;
+            if values.iter().any(|&u| unsigned(u) > 1 << 16) {
+                return None;
+            }
+            // u max 2^(31 - bits): below 2^31.
+            let scale = ((1 << lane.bits) - 1) << (15 - lane.bits);
+            let [u, v, w] = values;
+            let base = ((unsigned(u) * unsigned(scale)) >> 7) + (1 << (23 - lane.bits));
+            Some(([(v - u) * scale, (w - u) * scale], (signed(base), 24)))
+        })
+    }
+
+    /// The planes of numerators whose differences in Q31, and first value and its fraction, are `each` of a varying's.
+    #[inline(always)]
+    fn of<T: Snap, const P: usize>(
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
+        each: impl Fn(usize, [i32; 3]) -> Option<([i32; 2], (i32, u32))>,
+    ) -> Option<Self> {
+        let q = nearness(vertices)?;
+        let least = q[0].min(q[1]).min(q[2]);
+        let [q0, q1, q2] = q.map(signed);
+        let plane = slopes.plane(unsigned(q0), [(q1 - q0) >> 1, (q2 - q0) >> 1]);
+        if signed(plane.x).unsigned_abs() > (least >> 5) + (least >> 7) {
+            return None;
+        }
+        let mut all = Self { q: plane, n: [Plane::default(); N], each: [(0, 0); N] };
+        let [a, b, c] = vertices.map(|v| &v.varyings);
+        let varyings = a.iter().zip(b).zip(c).enumerate();
+        for ((n, start), (i, ((a, b), c))) in all.n.iter_mut().zip(&mut all.each).zip(varyings) {
+            let ([d1, d2], first) = each(i, [a.to_bits(), b.to_bits(), c.to_bits()])?;
+            *start = first;
+            // The high word is in units of 2.
+            let differences = [high_product(d1, q1), high_product(d2, q2)];
+            *n = slopes.plane(0, differences);
+        }
+        Some(all)
+    }
+
+    /// The values from a covered pixel on.
+    #[inline]
+    pub(crate) fn from(&self, x: i32, y: i32) -> Followed<'_, N> {
+        let q = self.q.signed_at(x, y).max(1 << 25);
+        let (divisor, zeros) = normalized(unsigned(q));
+        // 2^(63 + zeros) / (q 2^zeros) is in [2^31, 2^32); zeros is 1 to 6.
+        let r = signed(reciprocal(divisor) >> (7 - zeros));
+        Followed { of: self, r, q, n: self.n.map(|n| n.signed_at(x, y)) }
+    }
+}
+
+impl<const N: usize> Followed<'_, N> {
+    /// Colour channels with 24 bits of fraction.
+    #[inline]
+    pub(crate) fn fractions(&self) -> [u32; N] {
+        let mut fractions = [0; N];
+        for ((fraction, n), (base, _)) in fractions.iter_mut().zip(self.n).zip(self.of.each) {
+            *fraction = unsigned(base.wrapping_add(high_product(n, self.r)));
+        }
+        fractions
+    }
+}
+
+impl<const N: usize> Run<N> for Followed<'_, N> {
+    #[inline]
+    fn varyings(&self) -> [I16F16; N] {
+        let mut values = [I16F16::ZERO; N];
+        for ((value, n), (base, fraction)) in values.iter_mut().zip(self.n).zip(self.of.each) {
+            let value_up = base.wrapping_add(high_product(n, self.r));
+            *value = I16F16::from_bits(value_up >> (fraction & 31));
+        }
+        values
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        for (n, plane) in self.n.iter_mut().zip(&self.of.n) {
+            *n = n.wrapping_add(signed(plane.x));
+        }
+        self.q = self.q.wrapping_add(signed(self.of.q.x));
+        // x = q r / 2^56 - 1 in Q32, the 1 in the bits above; then 1 / (1 + x) is 1 - x + x^2 and x^3.
+        let x = high_product(self.q, self.r) << 8;
+        let correction = x.wrapping_sub(high_product(x, x));
+        // Through memory, so that it is not kept as 64 bits.
+        self.r = black_box(self.r.wrapping_sub(high_product(self.r, correction)));
+    }
+}
