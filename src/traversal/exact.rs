@@ -73,8 +73,10 @@ impl Side for Stepped {
 }
 
 impl Stepped {
-    /// The edge on its first row. Not inlined: the rows want the registers.
-    #[inline(never)]
+    /// The edge on its first row. Inlined where products are instructions: returned through memory it would be copied from
+    /// place to place.
+    #[cfg_attr(not(all(target_arch = "arm", not(target_has_atomic = "32"))), inline(always))]
+    #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
     fn between(upper: &Anchored, lower: &Anchored) -> Self {
         let [qx, qy] = lower.from(upper);
         let Anchored { x: px, y: py, w: pw, .. } = *upper;
