@@ -75,7 +75,8 @@ impl Window {
     #[inline(never)]
     fn new(viewport: &Viewport, size: (u32, u32)) -> Self {
         let rect = viewport.window(size.0, size.1);
-        let whole = [rect.x1 - rect.x0, rect.y1 - rect.y0] == [viewport.width, viewport.height];
+        let all = Rect { x0: 0, y0: 0, x1: viewport.width, y1: viewport.height };
+        let whole = rect == all.moved(viewport.origin.0, viewport.origin.1);
         Self { size, rect, whole }
     }
 }

@@ -19,7 +19,6 @@ use crate::color::Lane;
 use crate::math::{bits, high_product, normalized, reciprocal, signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Position, ScaleOf, Snap, Vertex};
-use core::hint::black_box;
 use fixed::types::I16F16;
 
 /// `q` of no covered pixel is below this, but for a plane's error.
@@ -175,8 +174,7 @@ impl<const N: usize> Run<N> for Followed<'_, N> {
         // x = q r / 2^56 - 1 in Q32, the 1 in the bits above; then 1 / (1 + x) is 1 - x + x^2 and x^3.
         let x = high_product(self.q, self.r) << 8;
         let correction = x.wrapping_sub(high_product(x, x));
-        // Through memory, so that it is not kept as 64 bits.
-        self.r = black_box(self.r.wrapping_sub(high_product(self.r, correction)));
+        self.r = self.r.wrapping_sub(high_product(self.r, correction));
     }
 }
 
@@ -205,9 +203,9 @@ mod tests {
             return None;
         }
         let slopes = Slopes::homogeneous(positions, determinant(positions), &bounds, viewport)?;
-        let quotients = Quotients::new(&slopes, v, (0, 0))?;
+        let quotients = Quotients::new(&slopes, v)?;
         let lane = Lane { bits: 6, width: 11, place: 0 };
-        let channels = Quotients::channels(&slopes, v, (0, 0), [lane]);
+        let channels = Quotients::channels(&slopes, v, [lane]);
         let range = f64::from(u.iter().max().unwrap() - u.iter().min().unwrap());
         let mut largest = [0.0f64; 2];
         for y in bounds.y0..bounds.y1 {
