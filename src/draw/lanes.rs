@@ -91,6 +91,8 @@ impl<const N: usize> Lanes<N> {
 }
 
 impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
+    const AT_ONCE: usize = 2;
+
     #[inline]
     fn color(&self, fragment: &F, _: i32, _: i32) -> C {
         fragment.shade_lanes(self.at)
@@ -103,6 +105,8 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
 }
 
 impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N> {
+    const AT_ONCE: usize = 1;
+
     #[inline]
     fn color(&self, fragment: &F, _: i32, _: i32) -> C {
         let mut word = 0;
@@ -121,6 +125,8 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N>
 }
 
 impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Divided<'_, N> {
+    const AT_ONCE: usize = 1;
+
     #[inline]
     fn color(&self, fragment: &F, _: i32, _: i32) -> C {
         let mut word = 0;

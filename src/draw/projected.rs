@@ -208,10 +208,10 @@ where
                     at = at.wrapping_add(depth.x);
                     pixel(passes)
                 };
-                if N == 0 {
-                    self.target.write_each::<_, 4>(x, y, depths, pixel);
-                } else {
-                    self.target.write_each::<_, 2>(x, y, depths, pixel);
+                match R::Block::AT_ONCE {
+                    4 => self.target.write_each::<_, 4>(x, y, depths, pixel),
+                    2 => self.target.write_each::<_, 2>(x, y, depths, pixel),
+                    _ => self.target.write_each::<_, 1>(x, y, depths, pixel),
                 }
                 running = running.wrapping_add(depth.x.wrapping_mul(unsigned(length)));
             }

@@ -200,6 +200,9 @@ where
 
 /// How a run's pixels get their colours.
 pub(super) trait Pixels<C, F, const N: usize> {
+    /// How many are drawn at a time, 1, 2 or 4: as many as there are registers for.
+    const AT_ONCE: usize;
+
     /// The colour at this pixel, column `x` of row `y`.
     fn color(&self, fragment: &F, x: i32, y: i32) -> C;
 
@@ -208,6 +211,8 @@ pub(super) trait Pixels<C, F, const N: usize> {
 }
 
 impl<C: Copy, F: Fragment<C, N>, R: Run<N>, const N: usize> Pixels<C, F, N> for R {
+    const AT_ONCE: usize = if N == 0 { 4 } else { 1 };
+
     #[inline]
     fn color(&self, fragment: &F, x: i32, y: i32) -> C {
         fragment.shade(Sample { x, y, varyings: self.varyings() })
