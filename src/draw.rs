@@ -180,13 +180,29 @@ where
         if let Some(outcome) = rejected::<W, N>(a & b & c) {
             return outcome;
         }
-        let cut = self.cuts::<N>(a | b | c);
-        if let Some(outcome) = self.draw_projected(vertices, a | b | c, fragment) {
+        let outside = Outside(a | b | c);
+        if let Some(outcome) = self.draw_projected(vertices, outside, fragment) {
             return outcome;
         }
-        if let Some(outcome) = self.draw_homogeneous(vertices, cut, fragment) {
+        if let Some(outcome) = self.draw_homogeneous(vertices, outside, fragment) {
             return outcome;
         }
+        self.draw_any(vertices, outside, fragment)
+    }
+
+    /// Draws a triangle by its edge functions in 64 bits: external ones, those that planes cut, and what has no planes.
+    /// Not inlined, so that the others have no stack for it.
+    #[inline(never)]
+    fn draw_any<F, const N: usize>(
+        &mut self,
+        vertices: [&Vertex<T, N, P>; 3],
+        outside: Outside,
+        fragment: &F,
+    ) -> Outcome
+    where
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
         // By reference: it is large.
         let setup = T::set_up(vertices.map(|v| &v.position), &self.viewport);
         let Some(setup) = &setup else {
@@ -202,7 +218,6 @@ where
         if front.is_empty() && (!W::BEHIND || behind.is_empty()) {
             return Outcome::OffScreen;
         }
-        let outside = Outside(a | b | c);
         let varyings = self
             .hither()
             .filter(|_| N > 0)
@@ -210,7 +225,7 @@ where
         let depth = (D::BITS > 0).then(|| DepthPlane::new(setup, vertices, D::BITS, outside));
         let shading = Shading { fragment, varyings: varyings.as_ref(), depth: depth.as_ref() };
         let mut part = |setup: &Setup, bounds: Rect| {
-            if cut {
+            if self.cuts::<N>(outside) {
                 self.draw_cut(setup, bounds, vertices, outside, &shading);
             } else {
                 self.draw_part(setup, bounds, None, &shading);
@@ -230,11 +245,11 @@ where
     }
 
     /// Draws a triangle of three projected vertices; `None` where it is not one, or has to be drawn as any other.
-    #[inline]
+    #[inline(never)]
     fn draw_projected<F, const N: usize>(
         &mut self,
         vertices: [&Vertex<T, N, P>; 3],
-        any: u16,
+        outside: Outside,
         fragment: &F,
     ) -> Option<Outcome>
     where
@@ -249,14 +264,14 @@ where
             Some(false) => return Some(Outcome::Culled),
             Some(true) => {}
         }
-        if self.cuts::<N>(any) {
+        if self.cuts::<N>(outside) {
             return None;
         }
         let corners = self.in_target(corners);
         let outline = Outline::new(&corners, area > 0);
         let whole = outline.bounds(T::SUBPIXEL_BITS);
         // Corners inside of the viewport need no more than a look at their box.
-        let inside = any & Outside::SIDES == 0 && self.shows_all();
+        let inside = outside.0 & Outside::SIDES == 0 && self.shows_all();
         if F::UNIFORM && D::BITS == 0 && N == 0 {
             return Some(if inside {
                 self.fill_inside(&outline, whole, fragment)
@@ -281,13 +296,13 @@ where
         corners.map(|[x, y]| [x + left, y + top])
     }
 
-    /// Whether planes may cut a triangle of which some vertex is outside of each bound in `any`.
+    /// Whether planes may cut a triangle of which some vertex is outside of these bounds.
     #[inline]
-    fn cuts<const N: usize>(&self, any: u16) -> bool
+    fn cuts<const N: usize>(&self, outside: Outside) -> bool
     where
         W: Interpolates<N>,
     {
-        (W::CLIPS || P > 0) && any & Outside::CLIPS != 0
+        (W::CLIPS || P > 0) && outside.0 & Outside::CLIPS != 0
     }
 
     /// Draws a part that planes cut: not inlined, so that a triangle that is not cut has no stack for

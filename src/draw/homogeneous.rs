@@ -23,11 +23,11 @@ where
 {
     /// Draws a triangle on the exact tier's grid that is on the screen and that no plane cuts; `None` where it is not
     /// one, or has to be drawn as any other.
-    #[inline]
+    #[inline(never)]
     pub(super) fn draw_homogeneous<F, const N: usize>(
         &mut self,
         vertices: [&Vertex<T, N, P>; 3],
-        cut: bool,
+        outside: Outside,
         fragment: &F,
     ) -> Option<Outcome>
     where
@@ -44,7 +44,7 @@ where
             return Some(Outcome::Culled);
         }
         let [a, b, c] = vertices.map(|v| v.outside.0);
-        if cut || (a | b | c) & (Outside::HITHER | Outside::SIDES) != 0 {
+        if self.cuts::<N>(outside) || outside.0 & (Outside::HITHER | Outside::SIDES) != 0 {
             return None;
         }
         let outline = outline(positions, facing, &self.viewport)?;

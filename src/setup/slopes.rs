@@ -2,26 +2,23 @@
 //!
 //! What is linear on the screen is `v = v_0 + d_1 b_1 + d_2 b_2` with `b_i = w_i E_i / (W H det)`. So the gradients of
 //! `w_i E_i` are those of a projected triangle's edges, and the reciprocal is that of `W H det`; all the rest is
-//! [`Slopes`]'.
+//! [`Slopes`]', whose letters these are.
 //!
 //! | value | bits | why |
 //! | --- | --- | --- |
 //! | a minor, cut | 30 | all four on one scale |
 //! | `w` times a side | 29 | 20 and 9 |
 //! | a gradient `e` of `w_i E_i` | 30 | their product, cut: off by 2 units |
-//! | `d_1 e_1 + d_2 e_2` | 62 | |
+//! | `2 e`, cut further where the function is so gentle that `t` would be negative | 31 | |
 //!
-//! Error of a value at a covered pixel, where gradients are `G 2^s` and the box is below `2^(n + 1)` pixels:
+//! Error of a value at a covered pixel, where gradients are `G 2^t` and the box is below `2^(n + 1)` pixels:
 //! - the reciprocal is off by 3 parts in 2^29, and so is `v - v_0`: by 2^5 units of 2^32;
-//! - `e` is off by 2 units, which are `2 (d_1 + d_2) / 2^shift < 2^(34 - shift)` of `G`; with `shift` at least
-//!   `30 - (8 - n - s)` that is `2^(4 + 8 - n - s)`;
-//! - the numerator and `G` are cut: 2 units of `G`;
-//! - a covered pixel is less than `2^(n + 2)` columns and rows from vertex 0: `(2^(12 - n - s) + 2) 2^(n + 2 + s)` is
-//!   at most 2^14 + 2^11 units;
-//! - vertex 0 is at its place to 2^-22 of a pixel; as `s` is at most 3, gradients are below 2^34: 2^13 units for
-//!   both.
+//! - `2 e` is off by 5 units, which are `5 (d_1 + d_2) / 2^33 < 2.5` of `G`; the floors of `v` and `G` are 1.5;
+//! - a covered pixel is less than `2^(n + 2)` columns and rows from vertex 0, and `t` is at most `10 - n`: 4 `2^12` units
+//!   for both;
+//! - the floor of `b` is a unit of `2^(t + 1)`: 2^11.
 //!
-//! In all less than 2^14.8 of 2^32 units: a stored 16-bit depth has 2^15 for it beside the half that rounding takes.
+//! In all less than 2^14.2 of 2^32 units: a stored 16-bit depth has 2^15 for it beside the half that rounding takes.
 
 use super::Slopes;
 use super::exact::{column_minor, row_minor};
