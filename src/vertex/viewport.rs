@@ -98,7 +98,10 @@ impl Viewport {
     #[must_use]
     pub fn with_scissor(self, scissor: Rect) -> Self {
         let whole = Rect { x0: 0, y0: 0, x1: self.width, y1: self.height };
-        Self { scissor: whole.intersect(scissor), ..self }
+        let shown = whole.intersect(scissor);
+        // An empty one may have its sides anywhere.
+        let none = Rect { x0: 0, y0: 0, x1: 0, y1: 0 };
+        Self { scissor: if shown.is_empty() { none } else { shown }, ..self }
     }
 
     /// Width in pixels.
@@ -183,5 +186,7 @@ mod tests {
         assert_eq!(band.window(100, 240), Rect { x0: 0, y0: 0, x1: 100, y1: 180 });
         let off = band.with_scissor(Rect { x0: -9, y0: 0, x1: 999, y1: 60 });
         assert!(off.window(240, 20).is_empty());
+        let far = Rect { x0: i32::MAX, y0: i32::MIN, x1: i32::MIN, y1: i32::MAX };
+        assert!(band.with_origin(i16::MAX, 9).with_scissor(far).window(240, 20).is_empty());
     }
 }
