@@ -270,8 +270,9 @@ where
         let corners = self.in_target(corners);
         let outline = Outline::new(&corners, area > 0);
         let whole = outline.bounds(T::SUBPIXEL_BITS);
-        // Corners inside of the viewport need no more than a look at their box.
-        let inside = outside.0 & Outside::SIDES == 0 && self.shows_all();
+        // Looked at, whatever the outcodes say: the vertices may be another viewport's.
+        let window = self.window();
+        let inside = window.holds(whole);
         if F::UNIFORM && D::BITS == 0 && N == 0 {
             return Some(if inside {
                 self.fill_inside(&outline, whole, fragment)
@@ -279,11 +280,11 @@ where
                 self.fill_windowed(&outline, whole, fragment)
             });
         }
-        let bounds = if inside { whole } else { whole.intersect(self.window()) };
+        let bounds = whole.intersect(window);
         if bounds.is_empty() {
             return Some(Outcome::OffScreen);
         }
-        let shape = Shape::new(outline, whole, bounds, T::SUBPIXEL_BITS);
+        let shape = Shape::new(outline, bounds, inside, T::SUBPIXEL_BITS);
         let slopes = Slopes::new(&corners, area, whole, T::SUBPIXEL_BITS)?;
         self.shade_shape(shape, &slopes, vertices, fragment)
     }

@@ -33,7 +33,7 @@ use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
 pub(crate) use plane::{Line, Linear, Pieces, is_straight, nearness_of, wrapped};
-pub(crate) use quotient::{Followed, Quotients};
+pub(crate) use quotient::{Followed, Level, Quotients, Slope};
 
 /// Pixels that are stepped from one exact start, where each is divided.
 pub(crate) const BLOCK: i32 = 64;
@@ -366,8 +366,9 @@ fn per_pixel(last: i32, first: i32, steps: i32) -> i32 {
         return if steps == 1 { saturate(difference) } else { 0 };
     }
     let inverse = INVERSE.get(crate::math::index(steps)).copied().unwrap_or(0);
-    // The inverse is a little large, so the floor is below 0 for every negative difference.
-    low((difference * i64::from(inverse)) >> 32) + i32::from(difference < 0)
+    // Of a negative one the ceiling.
+    let up = if difference < 0 { (1 << 32) - 1 } else { 0 };
+    low((difference * i64::from(inverse) + up) >> 32)
 }
 
 /// The table of [`per_pixel`].

@@ -99,7 +99,8 @@ pub trait Position: Copy + Send + core::fmt::Debug + PartialEq {
     #[doc(hidden)]
     fn scaled_w(&self) -> i32;
 
-    /// The depth `z / w` of the vertex this position is of, Q31 below 1 and within 2^-28, where `0 <= z <= w`.
+    /// The depth `z / w` of the vertex this position is of, by the snapped `w`: Q31 below 1, within 2^-28, where
+    /// `0 <= z <= w`.
     #[doc(hidden)]
     fn depth(&self, vertex: &ClipVertex) -> Option<i32>;
 }

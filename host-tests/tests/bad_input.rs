@@ -3,9 +3,9 @@
 
 use hither::{
     Affine, Always, BufferSize, ClipVertex, Correction, Counts, DepthBuffer, DepthSize, Exact,
-    Flat, Frame, Framebuffer, Gouraud, Gray8, Hither, HitherDistance, I16F16, Mat4, Mesh,
-    MeshError, Outcome, Perspective, PerspectiveEvery, Plane, Quick, Rect, Rgb565, Texture, Tier,
-    Viewport, ViewportSize,
+    Flat, Fragment, Frame, Framebuffer, Gouraud, Gray8, Hither, HitherDistance, I16F16, Mat4, Mesh,
+    MeshError, Outcome, Perspective, PerspectiveEvery, Plane, Quick, Rect, Rgb565, Target, Texture,
+    Tier, Viewport, ViewportSize,
 };
 use host_tests::oracle::{self, ExactTriangle, Part, Rng};
 use host_tests::record::{Mark, Probe, Record, clip_vertex, frame};
@@ -321,4 +321,54 @@ fn transforms_that_leave_their_range_shift() {
     let counts = frame.draw(&mesh, &large, &Flat(Gray8(1)), &mut []);
     // The whole screen lies inside, but for w = 1, that is below half a step beside 2^44.
     assert_eq!(counts.drawn + counts.zero_area + counts.behind, 1);
+}
+
+/// A target that is told nothing it does not have.
+struct Strict([[bool; 16]; 16]);
+
+impl Target for Strict {
+    type Color = ();
+
+    fn size(&self) -> (u32, u32) {
+        (16, 16)
+    }
+
+    fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<()>>) {
+        for (column, color) in (x..).zip(colors) {
+            self.0[y][column] |= color.is_some();
+        }
+    }
+}
+
+/// Draws with vertices that a frame of 512 x 512 has snapped.
+fn foreign<T: Tier>() {
+    let large = Viewport::new(512, 512).expect("sides");
+    let hither = Hither::new(I16F16::DELTA).expect("above 0");
+    let tier = |viewport: Viewport| {
+        let frame = Frame::with_viewport(Strict([[false; 16]; 16]), viewport);
+        frame.with_tier(T::default()).with_hither(hither).with_correction(Affine)
+    };
+    let snapping = tier(large);
+    let mut frame = tier(Viewport::new(16, 16).expect("sides"));
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]].map(|xy| xy.map(fixed));
+    let clip = corners.map(|[x, y]| ClipVertex::new(x, y, fixed(0.0), fixed(1.0)));
+    let [a, b, c] = clip.map(|v| snapping.snap(&v, []));
+    frame.draw_snapped([&a, &b, &c], &Flat(()));
+    let [a, b, c] = clip.map(|v| snapping.snap(&v, [fixed(1.0); 3]));
+    frame.draw_snapped([&a, &b, &c], &Nothing);
+}
+
+/// A shader with varyings and no colour.
+#[derive(Clone, Copy)]
+struct Nothing;
+
+impl Fragment<(), 3> for Nothing {
+    fn shade(&self, _: hither::Sample<3>) {}
+}
+
+#[test]
+fn vertices_of_another_viewport_stay_inside_of_the_target() {
+    foreign::<Exact>();
+    foreign::<Quick<4>>();
+    foreign::<Quick<8>>();
 }

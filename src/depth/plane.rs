@@ -1,12 +1,14 @@
 //! The depth of one triangle, as a linear function on the screen.
 //!
-//! Two ways lead to a row's first depth. Of a projected triangle with 16-bit depths that are inside of the range it is
-//! a [`Plane`] through the vertices ([`projected`]); that is nearly always. Otherwise it is the sum of the edge
+//! Two ways lead to a row's first depth. Of a triangle whose vertices are all projected, or on the screen in the exact tier,
+//! with 16-bit depths that are inside of the range it is a [`Plane`] through the vertices ([`projected`]); that is nearly
+//! always. Otherwise it is the sum of the edge
 //! functions, weighted ([`DepthPlane`]).
 //!
 //! Error budget of the plane, in running units, 2^16 to a stored one:
 //! - a vertex's depth is within 2^-28 of the range: 2^4;
-//! - the plane is off by less than 2^13 in boxes below 512 px, 2^15 where a triangle reaches the guard band's ends;
+//! - the plane is off by less than 2^14 in boxes below 512 px, 2^15 where a triangle reaches the guard band's ends, and
+//!   2^14.9 in the exact tier;
 //! - rounding to 16 bits adds 2^15.
 //!
 //! So a stored depth is within a unit; and as vertices are inside of the range, with 2^15 to spare at both ends, so is

@@ -61,23 +61,16 @@ pub struct Frame<C, D = NoDepth, W = NoHither, T = Exact, I = Perspective, const
 struct Window {
     size: (u32, u32),
     rect: Rect,
-    /// All of the viewport is in it.
-    whole: bool,
 }
 
 impl Window {
     /// Of no target: no triangle has asked yet.
-    const UNKNOWN: Self =
-        Self { size: (0, 0), rect: Rect { x0: 0, y0: 0, x1: 0, y1: 0 }, whole: false };
-}
+    const UNKNOWN: Self = Self { size: (0, 0), rect: Rect { x0: 0, y0: 0, x1: 0, y1: 0 } };
 
-impl Window {
+    /// Not inlined: it is asked for once a target.
     #[inline(never)]
     fn new(viewport: &Viewport, size: (u32, u32)) -> Self {
-        let rect = viewport.window(size.0, size.1);
-        let all = Rect { x0: 0, y0: 0, x1: viewport.width, y1: viewport.height };
-        let whole = rect == all.moved(viewport.origin.0, viewport.origin.1);
-        Self { size, rect, whole }
+        Self { size, rect: viewport.window(size.0, size.1) }
     }
 }
 
@@ -239,26 +232,15 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
 }
 
 impl<C: Target, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
-    /// The part of the scissor that the target holds, in the target's pixels.
+    /// The part of the scissor that the target holds, in the target's pixels. [`Frame::target_mut`] may have put another
+    /// target in its place.
     #[inline]
     pub(super) fn window(&mut self) -> Rect {
-        self.look().rect
-    }
-
-    /// Whether that is all of the viewport.
-    #[inline]
-    pub(super) fn shows_all(&mut self) -> bool {
-        self.look().whole
-    }
-
-    /// The window; [`Frame::target_mut`] may have put another target in its place.
-    #[inline]
-    fn look(&mut self) -> &Window {
         let size = self.target.size();
         if size != self.window.size {
             self.window = Window::new(&self.viewport, size);
         }
-        &self.window
+        self.window.rect
     }
 }
 

@@ -3,12 +3,12 @@
 use super::lanes::{Channels, Divided, Lanes};
 use super::projected::{Deep, Rows};
 use super::shade::NoVaryings;
-use super::shape::{Follow, Shape};
+use super::shape::Shape;
 use super::{Frame, Outcome};
 use crate::depth::{DepthTest, projected};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
-use crate::interpolation::{Correction, Followed, Interpolates, Linear, Quotients, same_w};
+use crate::interpolation::{Correction, Followed, Interpolates, Level, Quotients, Slope, same_w};
 use crate::setup::{Facing, Plane, Slopes, Tier, determinant, outline};
 use crate::span::Span;
 use crate::traversal::Stepped;
@@ -51,6 +51,10 @@ where
         if F::UNIFORM && D::BITS == 0 && N == 0 {
             return Some(self.fill_homogeneous(&outline, fragment));
         }
+        let level = I::AFFINE || same_w(vertices);
+        if N > 0 && !level && I::EVERY > 1 {
+            return None;
+        }
         if D::BITS > 16 || (D::BITS > 0 && a & b & c & Outside::RANGED == 0) {
             return None;
         }
@@ -61,18 +65,18 @@ where
         }
         let slopes = Slopes::homogeneous(positions, determinant, &whole, &self.viewport)?;
         let depth = if D::BITS > 0 { projected(&slopes, vertices) } else { Plane::default() };
-        let shape = Deep { shape: Shape { outline, bounds, follow: Follow::Clipped }, depth };
+        let shape = Deep { shape: Shape { outline, bounds, short: false }, depth };
         if N == 0 {
             self.draw_halves::<Stepped, _, _, N>(&shape, &NoVaryings, fragment);
-        } else if I::AFFINE || same_w(vertices) {
+        } else if level {
             if let Some(lanes) = F::LANES.and_then(|lanes| Lanes::new(&slopes, vertices, lanes)) {
                 let channels = Separate(lanes);
                 self.draw_halves::<Stepped, _, _, N>(&shape, &channels, fragment);
                 return Some(Outcome::Drawn);
             }
-            let linear = Linear::new(&slopes, vertices)?;
-            self.draw_halves::<Stepped, _, _, N>(&shape, &linear, fragment);
-        } else if I::EVERY == 1 {
+            let level = Level::new(&slopes, vertices)?;
+            self.draw_halves::<Stepped, _, _, N>(&shape, &Undivided(&level), fragment);
+        } else {
             if let Some(lanes) = F::LANES {
                 let channels = Quotients::channels(&slopes, vertices, lanes);
                 if let Some(channels) = channels {
@@ -82,8 +86,6 @@ where
             }
             let quotients = Quotients::new(&slopes, vertices)?;
             self.draw_halves::<Stepped, _, _, N>(&shape, &Each(&quotients), fragment);
-        } else {
-            return None;
         }
         Some(Outcome::Drawn)
     }
@@ -102,6 +104,22 @@ impl<const N: usize> Rows<N> for Separate<N> {
     #[inline]
     fn block(&self, span: Span, (): &mut ()) -> (Channels<N>, i32) {
         (self.0.channels(span.x0, span.y), span.x1 - span.x0)
+    }
+}
+
+/// Varyings that are linear on the screen.
+struct Undivided<'a, const N: usize>(&'a Level<N>);
+
+impl<'a, const N: usize> Rows<N> for Undivided<'a, N> {
+    type Block = Slope<'a, N>;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (Slope<'a, N>, i32) {
+        (self.0.from(span.x0, span.y), span.x1 - span.x0)
     }
 }
 

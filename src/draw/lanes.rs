@@ -9,7 +9,7 @@ use super::shade::Pixels;
 use crate::color::Lane;
 use crate::fragment::Fragment;
 use crate::interpolation::{Followed, Run};
-use crate::math::{bits, unsigned};
+use crate::math::{signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Snap, Vertex};
 use fixed::types::I16F16;
@@ -64,7 +64,7 @@ impl<const N: usize> Lanes<N> {
             let value = ((unsigned(u) * unsigned(scale)) << 1) + (1 << (31 - lane.bits));
             *plane = slopes.plane(value, [(v - u) * scale, (w - u) * scale]);
             let cut = 32 - lane.width;
-            let step = ((bits(plane.x) >> (cut - 1)) + 1) >> 1;
+            let step = ((signed(plane.x) >> (cut - 1)) + 1) >> 1;
             all.step = all.step.wrapping_add(unsigned(step) << lane.place);
         }
         Some(all)

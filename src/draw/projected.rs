@@ -2,7 +2,7 @@
 
 use super::lanes::{self, Lanes, Word};
 use super::shade::{NoVaryings, Pixels};
-use super::shape::{Follow, Shape};
+use super::shape::Shape;
 use super::{Frame, Outcome};
 use crate::clip::Hither;
 use crate::depth::{DepthTest, projected};
@@ -130,7 +130,7 @@ where
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
     {
-        if shape.shape.follow == Follow::Short {
+        if shape.shape.short {
             self.draw_halves::<Short, _, _, N>(shape, rows, fragment);
         } else {
             self.draw_halves::<ProjectedSide, _, _, N>(shape, rows, fragment);

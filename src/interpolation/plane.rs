@@ -14,7 +14,7 @@
 
 use super::{ONE, Run, per_pixel};
 use crate::clip::Hither;
-use crate::math::{bits, low, normalized, product, reciprocal, signed, unsigned};
+use crate::math::{bits, high_product, low, normalized, product, reciprocal, signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
@@ -35,7 +35,7 @@ pub(crate) struct Line<const N: usize> {
     step: [u32; N],
 }
 
-/// Perspective, divided at the ends of pieces of `every` pixels.
+/// Perspective, divided at the ends of pieces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pieces<const N: usize> {
     q: Plane,
@@ -49,7 +49,7 @@ struct Numerator {
     n: Plane,
     /// `u_0`, raw.
     base: i32,
-    /// 0 to 25: no difference is larger.
+    /// 1 to 24: no difference is larger.
     exponent: u32,
     /// What quotients are between: the least and the largest difference, or 0. Q29 in the same units.
     limits: [i32; 2],
@@ -161,7 +161,7 @@ impl<const N: usize> Linear<N> {
     #[inline]
     pub(crate) fn wrapped(&self, x: i32, y: i32) -> [u32; 2] {
         let at = self.each.map(|plane| plane.signed_at(x, y) >> 8);
-        let step = self.each.map(|plane| (signed(plane.x) + (1 << 7)) >> 8);
+        let step = self.each.map(|plane| signed(plane.x.wrapping_add(1 << 7)) >> 8);
         [word(at), word(step)]
     }
 
@@ -201,7 +201,7 @@ impl<const N: usize> Pieces<N> {
         for (value, numerator) in values.iter_mut().zip(&self.each) {
             // |n| <= q.
             let n = numerator.n.signed_at(x, y).wrapping_shl(zeros.wrapping_sub(1));
-            *value = numerator.value(low(product(n, inverse) >> 32));
+            *value = numerator.value(high_product(n, inverse));
         }
         values
     }
@@ -250,6 +250,46 @@ impl<const N: usize> Run<N> for Line<N> {
     fn step(&mut self) {
         for (at, step) in self.at.iter_mut().zip(self.step) {
             *at = at.wrapping_add(step);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::setup::{Outline, doubled_area};
+    use crate::vertex::{ClipVertex, Quick, Viewport};
+
+    /// Steps of a word are rounded from gradients modulo 2^32, of which any may be next to the end of the range.
+    #[test]
+    fn the_last_gradient_is_rounded() {
+        let corners = [[300, 300], [1955, 1836], [1352, 1068]];
+        let viewport = Viewport::new(16, 16).unwrap();
+        let vertices = [0, -3_319_162, 5_696_835].map(|u| {
+            let clip = ClipVertex { raw: [0, 0, 0, 2048], shift: 0 };
+            let position = Quick::<8>::snap(&clip, 1, &viewport);
+            let (outside, varyings) = (crate::vertex::Outside(0), [I16F16::from_bits(u)]);
+            Vertex::<Quick<8>, 1> { position, z: 0, shift: 0, outside, varyings, distances: [] }
+        });
+        let area = doubled_area(&corners);
+        let bounds = Outline::new(&corners, area > 0).bounds(8);
+        let slopes = Slopes::new(&corners, area, bounds, 8).unwrap();
+        let [a, b, c] = &vertices;
+        let linear = Linear::new(&slopes, [a, b, c]).unwrap();
+        let [_, step] = linear.wrapped(3, 3);
+        assert_eq!(step & 0xffff, (linear.each[0].x.wrapping_add(128) >> 8) & 0xffff);
+    }
+
+    #[test]
+    fn pieces_pass_neither_end() {
+        for difference in [-100_000, -17, -16, -1, 0, 1, 5, 16, 99_999] {
+            for steps in 1..=64 {
+                let [first, step] = wrapped([0, 1000], [1000, 1000 + difference], steps);
+                assert_eq!(first, word([0, 1000]));
+                let low = signed(step << 16) >> 16;
+                let per = |d: i32| d / steps;
+                assert_eq!(low, (per(difference) << 16) >> 16, "{difference} in {steps}");
+            }
         }
     }
 }

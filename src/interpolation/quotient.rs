@@ -1,7 +1,7 @@
 //! Perspective of a triangle on the screen in the exact tier, divided at each pixel, by planes.
 //!
-//! `q`, in a unit of the triangle's own, is `1 / w`: the largest of the three is in `[2^30, 2^31)`, and none is below
-//! 2^26: a triangle of which one vertex is 16 times as far as another is drawn by its edge functions. A numerator is
+//! `q`, in a unit of the triangle's own, is `1 / w`: the largest of the three is in `[2^30, 2^31)`, at most 2^31 - 2^16 so
+//! that what the plane is off has room, and none is below 2^26: a triangle of which one vertex is 16 times as far as another is drawn by its edge functions. A numerator is
 //! `n = (u - u_0) q / 2^e`, at most `q` in magnitude.
 //!
 //! The reciprocal `r = 2^56 / q` is followed along a row: a step of third order makes `1 + x^3` of one that is off by a part
@@ -55,9 +55,90 @@ fn nearness<T: Snap, const N: usize, const P: usize>(
     });
     let [(_, a), (_, b), (_, c)] = inverse;
     let top = a.max(b).max(c);
-    let q = inverse.map(|(mantissa, exponent)| mantissa >> (unsigned(top - exponent).min(30) + 1));
+    let q = inverse.map(|(mantissa, exponent)| {
+        (mantissa >> (unsigned(top - exponent).min(30) + 1)).min((1 << 31) - (1 << 16))
+    });
     let [a, b, c] = q;
     (a.min(b).min(c) >= LEAST).then_some(q)
+}
+
+/// A varying's differences in Q31 of `2^e`, and `u_0` with half a step in `2^(e - 24)` raw steps, and `24 - e`; `None`
+/// where `u_0` is too far from 0 for its fraction.
+///
+/// Q31 has no 1, and what a plane is off needs room: a difference is at most `1 - 2^-15`, which is within 2^-15.
+#[inline]
+fn in_own_units(values: [i32; 3]) -> Option<([i32; 2], (i32, u32))> {
+    const MOST: i32 = (1 << 30) - (1 << 15);
+    let varying = Varying::new(values, [0; 3]);
+    // So that u_0 has room beside its fraction.
+    let length = 32 - normalized(varying.base.unsigned_abs() | 1).1;
+    let e = varying.exponent.max(length.saturating_sub(6));
+    if e > 23 || (e > 11 && e > varying.exponent) {
+        return None;
+    }
+    let cut = e - varying.exponent;
+    let fraction = 24 - e;
+    let base = (varying.base << fraction) + (1 << fraction >> 1);
+    let differences = varying.differences.map(|d| (d >> cut).clamp(-MOST, MOST) << 1);
+    Some((differences, (base, fraction)))
+}
+
+/// Varyings that are linear on the screen, each in a unit of its own: numerators where `q` is 1. They are off by 2^14.8
+/// 2^-31 of `2^e`, and by 2^-15 of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Level<const N: usize> {
+    n: [Plane; N],
+    each: [(i32, u32); N],
+}
+
+/// Such varyings along a row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slope<'a, const N: usize> {
+    of: &'a Level<N>,
+    n: [i32; N],
+}
+
+impl<const N: usize> Level<N> {
+    /// The planes through three vertices on the screen, where they have some.
+    #[inline(never)]
+    pub(crate) fn new<T: Snap, const P: usize>(
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
+    ) -> Option<Self> {
+        let mut all = Self { n: [Plane::default(); N], each: [(0, 0); N] };
+        let [a, b, c] = vertices.map(|v| &v.varyings);
+        let varyings = a.iter().zip(b).zip(c);
+        for ((n, start), ((a, b), c)) in all.n.iter_mut().zip(&mut all.each).zip(varyings) {
+            let (differences, first) = in_own_units([a.to_bits(), b.to_bits(), c.to_bits()])?;
+            *start = first;
+            *n = slopes.plane(0, differences.map(|d| d >> 1));
+        }
+        Some(all)
+    }
+
+    /// The values from a covered pixel on.
+    #[inline]
+    pub(crate) fn from(&self, x: i32, y: i32) -> Slope<'_, N> {
+        Slope { of: self, n: self.n.map(|n| n.signed_at(x, y)) }
+    }
+}
+
+impl<const N: usize> Run<N> for Slope<'_, N> {
+    #[inline]
+    fn varyings(&self) -> [I16F16; N] {
+        let mut values = [I16F16::ZERO; N];
+        for ((value, n), (base, fraction)) in values.iter_mut().zip(self.n).zip(self.of.each) {
+            *value = I16F16::from_bits(base.wrapping_add(n >> 7) >> (fraction & 31));
+        }
+        values
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        for (n, plane) in self.n.iter_mut().zip(&self.of.n) {
+            *n = n.wrapping_add(signed(plane.x));
+        }
+    }
 }
 
 impl<const N: usize> Quotients<N> {
@@ -67,21 +148,7 @@ impl<const N: usize> Quotients<N> {
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
     ) -> Option<Self> {
-        Self::of(slopes, vertices, |_, values| {
-            let varying = Varying::new(values, [0; 3]);
-            // So that u_0 has room beside its fraction.
-            let length = 32 - normalized(varying.base.unsigned_abs() | 1).1;
-            let e = varying.exponent.max(length.saturating_sub(6));
-            if e > 23 || (e > 11 && e > varying.exponent) {
-                return None;
-            }
-            let cut = e - varying.exponent;
-            let fraction = 24 - e;
-            let base = (varying.base << fraction) + (1 << fraction >> 1);
-            // Q30 to Q31, which has no 1.
-            let differences = varying.differences.map(|d| (d >> cut).min((1 << 30) - 1) << 1);
-            Some((differences, (base, fraction)))
-        })
+        Self::of(slopes, vertices, |_, values| in_own_units(values))
     }
 
     /// The same of colour channels, each in parts of `2^bits` of its own steps: 24 bits of fraction, with half a step.
@@ -271,5 +338,72 @@ mod tests {
             }
         }
         assert!(planes > 1500, "{planes} triangles had planes; worst {worst:?}");
+    }
+
+    /// All at the same depth, so that nothing is divided: ranges down to a step, against exact weights.
+    #[test]
+    fn level_values_are_within_a_part_in_1024_of_any_range() {
+        let mut state = 9u64;
+        let mut below = move |n: i32| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            ((state >> 33) % u64::from(n.unsigned_abs())) as i32
+        };
+        let viewport = Viewport::new(512, 512).unwrap();
+        let mut pixels = 0;
+        for i in 0..200 {
+            let p =
+                [[0; 3]; 3].map(|_| [below(131_073) - 65_536, below(131_073) - 65_536, 1 << 16]);
+            let size = 1 << (i % 22);
+            let u = [0; 3].map(|_| below(size + 1) - size / 3);
+            let v = [0, 1, 2].map(|k| vertex(p[k], u[k], &viewport));
+            let v = [&v[0], &v[1], &v[2]];
+            let positions = v.map(|v| &v.position);
+            let Some(setup) = Exact::set_up(positions, &viewport) else { continue };
+            let (bounds, determinant) = (setup.bounds[0], determinant(positions));
+            let Some(slopes) = Slopes::homogeneous(positions, determinant, &bounds, &viewport)
+            else {
+                continue;
+            };
+            let Some(level) = Level::new(&slopes, v) else { continue };
+            let range = f64::from(u.iter().max().unwrap() - u.iter().min().unwrap());
+            for y in (bounds.y0..bounds.y1).step_by(7) {
+                for x in bounds.x0..bounds.x1 {
+                    let edges = setup.edges_at(x, y).map(|e| e as f64);
+                    if edges.iter().all(|&e| e > 0.0) {
+                        let sum = edges[0] + edges[1] + edges[2];
+                        let at = |k: usize| f64::from(u[k]) * edges[k];
+                        let exact = (at(0) + at(1) + at(2)) / sum;
+                        let got = f64::from(level.from(x, y).varyings()[0].to_bits());
+                        assert!((got - exact).abs() < 0.51 + range / 1024.0, "{p:?} {u:?} {x} {y}");
+                        pixels += 1;
+                    }
+                }
+            }
+        }
+        assert!(pixels > 100_000, "{pixels} pixels");
+    }
+
+    /// A vertex on a pixel's centre, with the nearest `w` a power of two and the largest difference one: both `q` and the
+    /// numerator are at their ends there.
+    #[test]
+    fn the_ends_of_both_planes_do_not_wrap() {
+        let viewport = Viewport::new(8, 8).unwrap();
+        for flip in [1, -1] {
+            // Pixel (3, 3)'s centre is at -1/8, 1/8.
+            let p = [
+                [-1 << 16, -1 << 16, 1 << 17],
+                [-1 << 13, 1 << 13, 1 << 16],
+                [1 << 16, -1 << 16, 1 << 17],
+            ];
+            let u = [0, flip << 16, 0];
+            let v = [0, 1, 2].map(|k| vertex(p[k], u[k], &viewport));
+            let v = [&v[0], &v[1], &v[2]];
+            let positions = v.map(|v| &v.position);
+            let bounds = Exact::set_up(positions, &viewport).unwrap().bounds[0];
+            let slopes =
+                Slopes::homogeneous(positions, determinant(positions), &bounds, &viewport).unwrap();
+            let at = Quotients::new(&slopes, v).unwrap().from(3, 3).varyings()[0].to_bits();
+            assert!((at - (flip << 16)).abs() < 64, "{at}");
+        }
     }
 }

@@ -19,11 +19,12 @@
 //! units of `2^t` in all. In a box below `2^(n + 1)` pixels `t` is `9 - n`, so a covered pixel is off by less than
 //! `2 2^(n + 1) 3 2^(9 - n)`, and `b`'s floor, a unit of `2^(t + 1)`: 2^13 units for boxes below 512 px, 2^15
 //! to the guard band's ends. `t` is 1 to 10: a steep function over a small triangle needs a large gradient, and a small
-//! one little precision. Where `e_i 2^k` does not fit, in a triangle that is a small part of a pixel wide, `t` is one
-//! more, and the function off by twice as much; where it does not even so, there is no plane.
+//! one little precision. Where `e_i 2^k` does not fit, in a triangle whose length is some hundred times its width, `t` is one
+//! more, and the function off by twice as much: 2^14 units, and less than 2^15 to the guard band's ends, since what the
+//! reciprocal is off is in proportion to `v - v_0`, 2^3 units in all. Where it does not even so, there is no plane.
 
 use super::doubled_area;
-use crate::math::{high, low, normalized, product, reciprocal, signed, unsigned};
+use crate::math::{high, high_product, low, normalized, product, reciprocal, signed, unsigned};
 use crate::vertex::Rect;
 
 /// What turns differences over a triangle into gradients.
@@ -78,7 +79,7 @@ impl Slopes {
         let (across, down) = ([r[1] - p[1], p[1] - q[1]], [p[0] - r[0], q[0] - p[0]]);
         let length = |v: i32| unsigned(v ^ v >> 31);
         let longest = length(across[0]) | length(across[1]) | length(down[0]) | length(down[1]);
-        let (_, room) = normalized(longest);
+        let (_, room) = normalized(longest | 1);
         let size = unsigned(bounds.x1 - bounds.x0) | unsigned(bounds.y1 - bounds.y0);
         let (_, zeros_of_size) = normalized(size);
         let usual = (8 + zeros_of_size).saturating_sub(31) + 1;
@@ -105,7 +106,7 @@ impl Slopes {
     #[inline]
     fn gradient(&self, [d1, d2]: [i32; 2], [e1, e2]: [i32; 2]) -> i32 {
         let v = low((product(d1, e1) + product(d2, e2)) >> 32);
-        low(product(v, self.inverse) >> 32)
+        high_product(v, self.inverse)
     }
 
     /// The function that is `value` at vertex 0, and twice the differences more at the other two.

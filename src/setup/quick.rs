@@ -10,7 +10,8 @@
 //! | determinant | 2^(22 + 2 S) | below 2^63 |
 //!
 //! Three projected: differences of corners are the steps, in 32 bits; the rest has 64. Coverage is decided by
-//! their rows (`traversal/rows.rs`), not by these edge functions, unless a plane cuts the triangle.
+//! their rows (`traversal/rows.rs`), not by these edge functions, unless a plane cuts the triangle, or it has no
+//! planes (`setup/plane.rs`).
 //!
 //! Mixed: the matrix in pixel space is the clip-space one times a map of determinant `-2 W H`;
 //! three homogeneous rows of at most `2^14 - 1` have a determinant of at most `4 (2^14 - 1)^3` (a 3

@@ -14,11 +14,11 @@
 //! Error of a value at a covered pixel, where gradients are `G 2^t` and the box is below `2^(n + 1)` pixels:
 //! - the reciprocal is off by 3 parts in 2^29, and so is `v - v_0`: by 2^5 units of 2^32;
 //! - `2 e` is off by 5 units, which are `5 (d_1 + d_2) / 2^33 < 2.5` of `G`; the floors of `v` and `G` are 1.5;
-//! - a covered pixel is less than `2^(n + 2)` columns and rows from vertex 0, and `t` is at most `10 - n`: 4 `2^12` units
-//!   for both;
-//! - the floor of `b` is a unit of `2^(t + 1)`: 2^11.
+//! - a covered pixel is less than `2^(n + 2)` columns and rows from vertex 0, and `t` is at most `10 - n`, or 2: `3.5 2^12` units
+//!   for both, `3.5 2^13` in a box of 512 pixels;
+//! - the floor of `b` is a unit of `2^(t + 1)`: 2^11, or 2^3.
 //!
-//! In all less than 2^14.2 of 2^32 units: a stored 16-bit depth has 2^15 for it beside the half that rounding takes.
+//! In all less than 2^14.9 of 2^32 units: a stored 16-bit depth has 2^15 for it beside the half that rounding takes.
 
 use super::Slopes;
 use super::exact::{column_minor, row_minor};

@@ -1,4 +1,4 @@
-//! The rows of a triangle whose corners are all on the screen: two edges at a time.
+//! The rows of a triangle whose corners are all in the guard band: two edges at a time.
 //!
 //! An edge is taken from its upper to its lower corner, whatever side of the triangle it is on: a
 //! left edge begins its spans at the first pixel whose centre is at or right of it, a right edge

@@ -36,6 +36,12 @@ impl Rect {
         Self { x0: self.x0 + x, y0: self.y0 + y, x1: self.x1 + x, y1: self.y1 + y }
     }
 
+    /// Whether all of a box is in it.
+    #[inline]
+    pub(crate) const fn holds(&self, other: Self) -> bool {
+        other.x0 >= self.x0 && other.y0 >= self.y0 && other.x1 <= self.x1 && other.y1 <= self.y1
+    }
+
     /// Whether it holds no pixel.
     #[inline]
     #[must_use]
