@@ -74,9 +74,8 @@ pub trait Correction: Copy + Default + core::fmt::Debug {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Perspective;
 
-/// Two divisions every `N` pixels, straight lines between: `N` is 2 to 64. Where one straight line over the
-/// whole triangle is at most 2^-9 off (an eighth of a texel on a side of 64, a sixteenth of a step of 5-bit
-/// colour), there is no division.
+/// Two divisions every `N` pixels, straight lines between: `N` is 2 to 64. Where one straight line over the whole triangle
+/// is no more off than the fragment allows ([`Fragment::TOLERANCE`](crate::Fragment::TOLERANCE)), there is no division.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PerspectiveEvery<const N: u8>;
 
