@@ -105,7 +105,7 @@ where
     }
 
     /// Fills the rows of `bounds`, which has all columns.
-    #[inline(always)]
+    #[inline(never)]
     fn fill_long<S: Side>(&mut self, outline: &Outline<S::Corner>, bounds: Rect, color: C::Color) {
         let bits = T::SUBPIXEL_BITS;
         let mut halves = Halves::<S>::new(outline, bounds, bits);
