@@ -39,8 +39,8 @@ pub trait Fragment<C: Copy, const N: usize>: Copy {
     /// varyings, unless a shader looks at the pixel's position.
     const UNIFORM: bool = N == 0;
 
-    /// How far off varyings may be, in raw steps of 2^-16, where a tier that is not exact takes a straight line over
-    /// a triangle for a curve: 2^-9, an eighth of a texel on a side of 64.
+    /// How far off varyings may be, in raw steps of 2^-16, where [`PackedEvery`](crate::PackedEvery) takes a straight line
+    /// over a triangle for a curve: 2^-9, an eighth of a texel on a side of 64.
     const TOLERANCE: u32 = 1 << 7;
 
     /// The colour at a pixel.
@@ -130,7 +130,7 @@ impl<C: FromUnit> Fragment<C, 3> for Gouraud {
 
 /// Colour from a texture, nearest texel, by two varyings `u` and `v`: see [`Texture`].
 ///
-/// In the quick tiers a coordinate is stepped by whole 2^-16: at the end of a straight piece of `N` pixels it is up to
+/// With [`PackedEvery`](crate::PackedEvery) a coordinate is stepped by whole 2^-16: at the end of a straight piece of `N` pixels it is up to
 /// `N` of those off, and up to 16 where the whole triangle is straight. That is a texel of a side of 1024 for `N` = 64.
 #[derive(Debug)]
 pub struct Textured<'a, F: PixelFormat>(pub Texture<'a, F>);

@@ -61,23 +61,32 @@ impl<const N: usize> Interpolates<N> for Hither {
     }
 }
 
-/// How varyings are corrected for perspective: [`Perspective`], [`PerspectiveEvery`] or [`Affine`].
+/// How varyings are corrected for perspective: [`Perspective`], [`PerspectiveEvery`], [`PackedEvery`] or [`Affine`].
 pub trait Correction: Copy + Default + core::fmt::Debug {
     /// Pixels between two divisions: 1, or the length of a straight piece.
     const EVERY: i32;
     /// Whether triangles wholly in front of the hither plane are interpolated linearly on the
     /// screen.
     const AFFINE: bool;
+    /// Whether varyings may be stepped as one word, and straight lines be as far off as a fragment allows.
+    const PACKED: bool = false;
 }
 
 /// Each pixel is divided: within 2^-10 of an attribute's range for `w` up to 4096 hither distances.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Perspective;
 
-/// Two divisions every `N` pixels, straight lines between: `N` is 2 to 64. Where one straight line over the whole triangle
-/// is no more off than the fragment allows ([`Fragment::TOLERANCE`](crate::Fragment::TOLERANCE)), there is no division.
+/// Two divisions every `N` pixels, straight lines between: `N` is 2 to 64. Where one straight line over the whole
+/// triangle is at most 2^-9 off (an eighth of a texel on a side of 64, a sixteenth of a step of 5-bit colour), there is no
+/// division.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PerspectiveEvery<const N: u8>;
+
+/// [`PerspectiveEvery`] for speed: in the quick tiers what a pixel is made of is stepped as one word where it fits, colours
+/// within a step of RGB565, texture coordinates to 2^-16; and a straight line over the whole triangle may be as far off
+/// as the fragment allows ([`Fragment::TOLERANCE`](crate::Fragment::TOLERANCE)).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PackedEvery<const N: u8>;
 
 /// No correction: linear on the screen, for triangles with no vertex behind the hither plane.
 /// Another triangle is divided at each pixel, and counted in
@@ -96,6 +105,12 @@ impl<const N: u8> Correction for PerspectiveEvery<N> {
         N as i32
     };
     const AFFINE: bool = false;
+}
+
+impl<const N: u8> Correction for PackedEvery<N> {
+    const EVERY: i32 = PerspectiveEvery::<N>::EVERY;
+    const AFFINE: bool = false;
+    const PACKED: bool = true;
 }
 
 impl Correction for Affine {

@@ -115,7 +115,9 @@ pub use fixed;
 pub use fixed::types::I16F16;
 pub use fragment::{FaceColors, Flat, Fragment, Gouraud, Sample, Textured};
 pub use framebuffer::{Framebuffer, Target};
-pub use interpolation::{Affine, Correction, Interpolates, Perspective, PerspectiveEvery};
+pub use interpolation::{
+    Affine, Correction, Interpolates, PackedEvery, Perspective, PerspectiveEvery,
+};
 pub use mesh::{AsVaryings, Lit, Mesh, MeshError, NormalColor, StoredPosition, VertexStage};
 pub use setup::{Cull, Facing, Tier};
 pub use texture::{Texture, TextureSize};

@@ -34,10 +34,6 @@ pub trait Tier: Snap {
     #[doc(hidden)]
     const SUBPIXEL_BITS: u32;
 
-    /// Whether what a pixel shows may be off by more than its rounding: colours stepped as one word.
-    #[doc(hidden)]
-    const APPROXIMATE: bool;
-
     /// The corners in subpixels, y down, where all three vertices are projected.
     #[doc(hidden)]
     fn projected(vertices: [&Self::Position; 3]) -> Option<[[i32; 2]; 3]>;

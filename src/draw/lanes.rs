@@ -145,8 +145,8 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Divided<'_,
 #[cfg(test)]
 mod tests {
     use crate::{
-        ClipVertex, Fragment, Frame, Framebuffer, Gouraud, Hither, I16F16, Outcome,
-        PerspectiveEvery, Quick, Rgb565, Snapped, Texture, Textured, Vertex,
+        ClipVertex, Fragment, Frame, Framebuffer, Gouraud, Hither, I16F16, Outcome, PackedEvery,
+        Quick, Rgb565, Snapped, Texture, Textured, Vertex,
     };
     use std::vec::Vec;
 
@@ -162,7 +162,7 @@ mod tests {
         let buffer = Framebuffer::<Rgb565>::try_new(&mut words, SIDE, SIDE).unwrap();
         let hither = Hither::new(I16F16::ONE).unwrap();
         let frame = Frame::new(buffer).unwrap().with_tier(Quick::<8>).with_hither(hither);
-        let mut frame = frame.with_correction(PerspectiveEvery::<16>);
+        let mut frame = frame.with_correction(PackedEvery::<16>);
         let vertices: [Vertex<_, N>; 3] = corners.map(|([x, y], varyings)| {
             let at = |v: i32| I16F16::from_bits(v << 9);
             frame.snap(&ClipVertex::new(at(x), at(y), I16F16::ZERO, I16F16::ONE), varyings)

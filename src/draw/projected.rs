@@ -19,6 +19,9 @@ use crate::vertex::{Outside, Vertex};
 use core::hint::black_box;
 use core::marker::PhantomData;
 
+/// How far off a straight line may be that is not packed, in raw steps: 2^-9.
+const STRAIGHT: u32 = 1 << 7;
+
 /// A shape with its depth.
 pub(super) struct Deep<C = Corner> {
     pub(super) shape: Shape<C>,
@@ -96,23 +99,27 @@ where
         F: Fragment<C::Color, N>,
     {
         let q = nearness_of(vertices, hither);
-        let tolerance = if I::EVERY > 1 { F::TOLERANCE } else { 0 };
+        let tolerance = match I::EVERY {
+            1 => 0,
+            _ if I::PACKED => F::TOLERANCE,
+            _ => STRAIGHT,
+        };
         if I::AFFINE || is_straight(vertices, q, tolerance) {
-            if let Some(lanes) = F::LANES.filter(|_| T::APPROXIMATE) {
+            if let Some(lanes) = F::LANES.filter(|_| I::PACKED) {
                 if let Some(lanes) = Lanes::new(slopes, vertices, lanes) {
                     self.draw_shape(shape, &lanes, fragment);
                     return Some(());
                 }
             }
             let linear = Linear::new(slopes, vertices)?;
-            if F::WRAPS && T::APPROXIMATE {
+            if F::WRAPS && I::PACKED {
                 self.draw_shape(shape, &Wrapped(linear), fragment);
             } else {
                 self.draw_shape(shape, &linear, fragment);
             }
         } else if I::EVERY > 1 {
             let pieces = Every::<_, I>(Pieces::new(slopes, vertices, q)?, PhantomData);
-            if F::WRAPS && T::APPROXIMATE {
+            if F::WRAPS && I::PACKED {
                 self.draw_shape(shape, &Wrapped(pieces), fragment);
             } else {
                 self.draw_shape(shape, &pieces, fragment);

@@ -142,7 +142,6 @@ fn extent(p: &ExactPosition, viewport: &Viewport) -> Extent {
 
 impl Tier for Exact {
     const SUBPIXEL_BITS: u32 = 0;
-    const APPROXIMATE: bool = false;
 
     #[inline]
     fn projected(_: [&ExactPosition; 3]) -> Option<[[i32; 2]; 3]> {

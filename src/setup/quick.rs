@@ -25,7 +25,6 @@ use crate::vertex::{GUARD_BAND, HOMOGENEOUS_BITS, Quick, QuickPosition, Rect, Vi
 
 impl<const BITS: u32> Tier for Quick<BITS> {
     const SUBPIXEL_BITS: u32 = BITS;
-    const APPROXIMATE: bool = true;
 
     #[inline]
     fn projected([p, q, r]: [&QuickPosition<BITS>; 3]) -> Option<[[i32; 2]; 3]> {
