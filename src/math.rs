@@ -120,7 +120,7 @@ pub(crate) const fn product(a: i32, b: i32) -> i64 {
     if SMALL_CORE { product_of_halves(a, b) } else { a as i64 * b as i64 }
 }
 
-/// [`product`] from four of 16 by 16 bits: 20 instructions on ARMv6-M for 40. No sum leaves 32 bits.
+/// [`product`] from four of 16 by 16 bits, where one of 64 bits is a call. No sum leaves 32 bits.
 #[inline]
 const fn product_of_halves(a: i32, b: i32) -> i64 {
     let ([a1, a0], [b1, b0]) = ([a >> 16, a & 0xffff], [b >> 16, b & 0xffff]);

@@ -4,8 +4,8 @@ use super::{Frame, Outcome};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
 use crate::math::{SMALL_CORE, index};
-use crate::setup::{Anchored, Outline, Tier};
-use crate::traversal::{Halves, ProjectedSide, Short, Side, Stepped};
+use crate::setup::{Outline, Tier};
+use crate::traversal::{Halves, ProjectedSide, Short, Side};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
@@ -48,36 +48,29 @@ where
     where
         F: Fragment<C::Color, N>,
     {
-        let bounds = whole.intersect(self.window());
-        if bounds.is_empty() {
-            return Outcome::OffScreen;
-        }
-        let color = self.uniform(bounds, fragment);
-        self.fill_clipped::<ProjectedSide>(outline, bounds, color);
-        Outcome::Drawn
+        self.fill_within::<ProjectedSide, F, N>(outline, whole, fragment)
     }
 
-    /// Fills a triangle on the screen in the exact tier.
+    /// Fills what the window has of a triangle, whose edges are followed by `S` and whose box is `whole`.
     #[inline]
-    pub(super) fn fill_homogeneous<F, const N: usize>(
+    pub(super) fn fill_within<S: Side, F, const N: usize>(
         &mut self,
-        outline: &Outline<Anchored>,
+        outline: &Outline<S::Corner>,
+        whole: Rect,
         fragment: &F,
     ) -> Outcome
     where
         F: Fragment<C::Color, N>,
     {
-        let window = self.window();
-        let whole = outline.bounds();
-        let bounds = whole.intersect(window);
+        let bounds = whole.intersect(self.window());
         if bounds.is_empty() {
             return Outcome::OffScreen;
         }
         let color = self.uniform(bounds, fragment);
         if bounds.x0 == whole.x0 && bounds.x1 == whole.x1 {
-            self.fill_long::<Stepped>(outline, bounds, color);
+            self.fill_long::<S>(outline, bounds, color);
         } else {
-            self.fill_clipped::<Stepped>(outline, bounds, color);
+            self.fill_clipped::<S>(outline, bounds, color);
         }
         Outcome::Drawn
     }

@@ -1,7 +1,7 @@
 //! Triangles on the exact tier's grid: what is decided before anything is made of them, and those that are on the screen.
 
 use super::lanes::{Channels, Divided, Lanes};
-use super::projected::{Deep, Rows};
+use super::projected::{Begins, Deep};
 use super::shade::NoVaryings;
 use super::shape::Shape;
 use super::{Frame, Outcome};
@@ -9,8 +9,7 @@ use crate::depth::{DepthTest, projected};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Followed, Interpolates, Level, Quotients, Slope, same_w};
-use crate::setup::{Facing, Plane, Slopes, Tier, determinant, outline};
-use crate::span::Span;
+use crate::setup::{Anchored, Facing, Plane, Slopes, Tier, determinant, outline};
 use crate::traversal::Stepped;
 use crate::vertex::{Outside, Vertex};
 
@@ -49,7 +48,8 @@ where
         }
         let outline = outline(positions, facing, &self.viewport)?;
         if F::UNIFORM && D::BITS == 0 && N == 0 {
-            return Some(self.fill_homogeneous(&outline, fragment));
+            let whole = outline.bounds();
+            return Some(self.fill_within::<Stepped, F, N>(&outline, whole, fragment));
         }
         let level = I::AFFINE || same_w(vertices);
         if N > 0 && !level && I::EVERY > 1 {
@@ -69,88 +69,95 @@ where
         if N == 0 {
             self.draw_halves::<Stepped, _, _, N>(&shape, &NoVaryings, fragment);
         } else if level {
-            if let Some(lanes) = F::LANES.and_then(|lanes| Lanes::new(&slopes, vertices, lanes)) {
-                let channels = Separate(lanes);
-                self.draw_halves::<Stepped, _, _, N>(&shape, &channels, fragment);
-                return Some(Outcome::Drawn);
-            }
-            let level = Level::new(&slopes, vertices)?;
-            self.draw_halves::<Stepped, _, _, N>(&shape, &Undivided(&level), fragment);
+            self.draw_level(&shape, &slopes, vertices, fragment)?;
         } else {
-            if let Some(lanes) = F::LANES {
-                let channels = Quotients::channels(&slopes, vertices, lanes);
-                if let Some(channels) = channels {
-                    self.draw_halves::<Stepped, _, _, N>(&shape, &EachChannel(&channels), fragment);
-                    return Some(Outcome::Drawn);
-                }
-            }
-            let quotients = Quotients::new(&slopes, vertices)?;
-            self.draw_halves::<Stepped, _, _, N>(&shape, &Each(&quotients), fragment);
+            self.draw_divided(&shape, &slopes, vertices, fragment)?;
         }
         Some(Outcome::Drawn)
+    }
+
+    /// Draws a shape whose varyings are linear on the screen.
+    #[inline]
+    fn draw_level<F, const N: usize>(
+        &mut self,
+        shape: &Deep<Anchored>,
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
+        fragment: &F,
+    ) -> Option<()>
+    where
+        F: Fragment<C::Color, N>,
+    {
+        if let Some(lanes) = F::LANES.and_then(|lanes| Lanes::new(slopes, vertices, lanes)) {
+            self.draw_halves::<Stepped, _, _, N>(shape, &Separate(lanes), fragment);
+        } else {
+            let level = Level::new(slopes, vertices)?;
+            self.draw_halves::<Stepped, _, _, N>(shape, &&level, fragment);
+        }
+        Some(())
+    }
+
+    /// Draws a shape whose varyings are divided at each pixel.
+    #[inline]
+    fn draw_divided<F, const N: usize>(
+        &mut self,
+        shape: &Deep<Anchored>,
+        slopes: &Slopes,
+        vertices: [&Vertex<T, N, P>; 3],
+        fragment: &F,
+    ) -> Option<()>
+    where
+        F: Fragment<C::Color, N>,
+    {
+        let channels = F::LANES.and_then(|lanes| Quotients::channels(slopes, vertices, lanes));
+        if let Some(channels) = channels {
+            self.draw_halves::<Stepped, _, _, N>(shape, &EachChannel(&channels), fragment);
+        } else {
+            let quotients = Quotients::new(slopes, vertices)?;
+            self.draw_halves::<Stepped, _, _, N>(shape, &&quotients, fragment);
+        }
+        Some(())
     }
 }
 
 /// Lanes as channels, each by itself.
 struct Separate<const N: usize>(Lanes<N>);
 
-impl<const N: usize> Rows<N> for Separate<N> {
+impl<const N: usize> Begins<N> for Separate<N> {
     type Block = Channels<N>;
-    type Joint = ();
 
     #[inline]
-    fn joint(&self, _: Span) {}
-
-    #[inline]
-    fn block(&self, span: Span, (): &mut ()) -> (Channels<N>, i32) {
-        (self.0.channels(span.x0, span.y), span.x1 - span.x0)
+    fn begin(&self, x: i32, y: i32) -> Channels<N> {
+        self.0.channels(x, y)
     }
 }
 
-/// Varyings that are linear on the screen.
-struct Undivided<'a, const N: usize>(&'a Level<N>);
-
-impl<'a, const N: usize> Rows<N> for Undivided<'a, N> {
+impl<'a, const N: usize> Begins<N> for &'a Level<N> {
     type Block = Slope<'a, N>;
-    type Joint = ();
 
     #[inline]
-    fn joint(&self, _: Span) {}
-
-    #[inline]
-    fn block(&self, span: Span, (): &mut ()) -> (Slope<'a, N>, i32) {
-        (self.0.from(span.x0, span.y), span.x1 - span.x0)
+    fn begin(&self, x: i32, y: i32) -> Slope<'a, N> {
+        self.from(x, y)
     }
 }
 
-/// Varyings divided at each pixel.
-struct Each<'a, const N: usize>(&'a Quotients<N>);
-
-impl<'a, const N: usize> Rows<N> for Each<'a, N> {
+impl<'a, const N: usize> Begins<N> for &'a Quotients<N> {
     type Block = Followed<'a, N>;
-    type Joint = ();
 
     #[inline]
-    fn joint(&self, _: Span) {}
-
-    #[inline]
-    fn block(&self, span: Span, (): &mut ()) -> (Followed<'a, N>, i32) {
-        (self.0.from(span.x0, span.y), span.x1 - span.x0)
+    fn begin(&self, x: i32, y: i32) -> Followed<'a, N> {
+        self.from(x, y)
     }
 }
 
 /// Channels divided at each pixel.
 struct EachChannel<'a, const N: usize>(&'a Quotients<N>);
 
-impl<'a, const N: usize> Rows<N> for EachChannel<'a, N> {
+impl<'a, const N: usize> Begins<N> for EachChannel<'a, N> {
     type Block = Divided<'a, N>;
-    type Joint = ();
 
     #[inline]
-    fn joint(&self, _: Span) {}
-
-    #[inline]
-    fn block(&self, span: Span, (): &mut ()) -> (Divided<'a, N>, i32) {
-        (Divided(self.0.from(span.x0, span.y)), span.x1 - span.x0)
+    fn begin(&self, x: i32, y: i32) -> Divided<'a, N> {
+        Divided(self.0.from(x, y))
     }
 }

@@ -50,6 +50,18 @@ pub(super) trait Rows<const N: usize> {
     fn block(&self, span: Span, joint: &mut Self::Joint) -> (Self::Block, i32);
 }
 
+/// [`Rows`] of which a block begins anywhere, whatever was before it.
+pub(super) trait Begins<const N: usize> {
+    /// How the pixels of a block are made.
+    type Block;
+
+    /// Pixels of a block, at the most.
+    const LENGTH: i32 = i32::MAX;
+
+    /// The block from a pixel on.
+    fn begin(&self, x: i32, y: i32) -> Self::Block;
+}
+
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
 where
     C: Target,
@@ -227,62 +239,59 @@ where
     }
 }
 
-impl<const N: usize> Rows<N> for NoVaryings {
+impl<const N: usize, B: Begins<N>> Rows<N> for B {
+    type Block = B::Block;
+    type Joint = ();
+
+    #[inline]
+    fn joint(&self, _: Span) {}
+
+    #[inline]
+    fn block(&self, span: Span, (): &mut ()) -> (B::Block, i32) {
+        (self.begin(span.x0, span.y), (span.x1 - span.x0).min(B::LENGTH))
+    }
+}
+
+impl<const N: usize> Begins<N> for NoVaryings {
     type Block = Self;
-    type Joint = ();
 
     #[inline]
-    fn joint(&self, _: Span) {}
-
-    #[inline]
-    fn block(&self, span: Span, (): &mut ()) -> (Self, i32) {
-        (Self, span.x1 - span.x0)
+    fn begin(&self, _: i32, _: i32) -> Self {
+        Self
     }
 }
 
-impl<const N: usize> Rows<N> for Linear<N> {
+impl<const N: usize> Begins<N> for Linear<N> {
     type Block = Line<N>;
-    type Joint = ();
 
     #[inline]
-    fn joint(&self, _: Span) {}
-
-    #[inline]
-    fn block(&self, span: Span, (): &mut ()) -> (Line<N>, i32) {
-        (self.line(span.x0, span.y), span.x1 - span.x0)
+    fn begin(&self, x: i32, y: i32) -> Line<N> {
+        self.line(x, y)
     }
 }
 
-impl<const N: usize> Rows<N> for Lanes<N> {
+impl<const N: usize> Begins<N> for Lanes<N> {
     type Block = Word;
-    type Joint = ();
+    const LENGTH: i32 = lanes::LENGTH;
 
     #[inline]
-    fn joint(&self, _: Span) {}
-
-    #[inline]
-    fn block(&self, span: Span, (): &mut ()) -> (Word, i32) {
-        (self.word(span.x0, span.y), (span.x1 - span.x0).min(lanes::LENGTH))
+    fn begin(&self, x: i32, y: i32) -> Word {
+        self.word(x, y)
     }
 }
 
 /// Varyings of which only the fractions matter, in one word.
 struct Wrapped<R>(R);
 
-/// Pixels that are stepped from one start where steps are rounded to a raw one: 2^-12 at most.
-const WRAPPED: i32 = 32;
-
-impl<const N: usize> Rows<N> for Wrapped<Linear<N>> {
+impl<const N: usize> Begins<N> for Wrapped<Linear<N>> {
     type Block = Word;
-    type Joint = ();
+    /// A step is rounded to a raw one: 2^-12 at most over these.
+    const LENGTH: i32 = 32;
 
     #[inline]
-    fn joint(&self, _: Span) {}
-
-    #[inline]
-    fn block(&self, span: Span, (): &mut ()) -> (Word, i32) {
-        let [at, step] = self.0.wrapped(span.x0, span.y);
-        (Word { at, step }, (span.x1 - span.x0).min(WRAPPED))
+    fn begin(&self, x: i32, y: i32) -> Word {
+        let [at, step] = self.0.wrapped(x, y);
+        Word { at, step }
     }
 }
 

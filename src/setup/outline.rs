@@ -15,14 +15,6 @@ pub(crate) struct Corner {
     pub(crate) y: i32,
 }
 
-impl Corner {
-    /// The first row whose centre is not above it.
-    #[inline]
-    pub(crate) const fn row(self, bits: u32) -> i32 {
-        first_centre(self.y, bits)
-    }
-}
-
 /// A corner that a triangle's rows begin or end at.
 pub(crate) trait Place: Copy + core::fmt::Debug {
     /// The first row whose centre is not above it, where its coordinates have `bits` subpixel bits.
@@ -32,7 +24,7 @@ pub(crate) trait Place: Copy + core::fmt::Debug {
 impl Place for Corner {
     #[inline]
     fn row(self, bits: u32) -> i32 {
-        Self::row(self, bits)
+        first_centre(self.y, bits)
     }
 }
 

@@ -17,10 +17,10 @@
 //!
 //! The same columns come from three ways, and each instruction set takes the cheaper: [`Line`] needs a
 //! division an edge and an addition of 64 bits a row, [`Short`] one of 32 bits, [`Digital`] no more than a division
-//! by additions, and seven instructions a row.
+//! by additions, and a remainder to keep a row.
 //!
-//! Did not pay on a Cortex-M4: whole pixels and a remainder (W2 1061 instructions a triangle, where sums in 64 bits
-//! take 941); and a half's rows drawn by a call of their own, with its edges in memory (W2 1061 to 941 without).
+//! Did not pay on a Cortex-M4: whole pixels and a remainder; and a half's rows drawn by a call of their own, with its
+//! edges in memory.
 
 use crate::math::{low, signed, unsigned};
 use crate::setup::{Corner, Place};
