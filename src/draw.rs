@@ -16,7 +16,7 @@ use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates, Varyings};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
-use crate::setup::{Outline, Part, Setup, Slopes, Tier, doubled_area, shows};
+use crate::setup::{Facing, Outline, Part, Setup, Slopes, Tier, doubled_area, facing};
 use crate::traversal::ClipWalk;
 use crate::vertex::{ClipVertex, Distance, Outside, Position, Rect, Vertex};
 use core::slice::from_mut;
@@ -259,10 +259,8 @@ where
         let corners = T::projected(vertices.map(|v| &v.position))?;
         // Before anything is made of them: half of a mesh's triangles look away.
         let area = doubled_area(&corners);
-        match shows(area, self.cull) {
-            None => return Some(Outcome::ZeroArea),
-            Some(false) => return Some(Outcome::Culled),
-            Some(true) => {}
+        if let Some(outcome) = self.turned_away(facing(area)) {
+            return Some(outcome);
         }
         if self.cuts::<N>(outside) {
             return None;
@@ -287,6 +285,15 @@ where
         let shape = Shape::new(outline, bounds, inside, T::SUBPIXEL_BITS);
         let slopes = Slopes::new(&corners, area, whole, T::SUBPIXEL_BITS)?;
         self.shade_shape(shape, &slopes, vertices, fragment)
+    }
+
+    /// Why a triangle that faces this way, or none, is not drawn, if it is not.
+    #[inline]
+    fn turned_away(&self, facing: Option<Facing>) -> Option<Outcome> {
+        match facing {
+            None => Some(Outcome::ZeroArea),
+            Some(facing) => self.cull.hides(facing).then_some(Outcome::Culled),
+        }
     }
 
     /// Corners in the target's subpixels, of those in the viewport's.

@@ -19,7 +19,7 @@ mod quick;
 mod slopes;
 
 pub(crate) use exact::{Anchored, determinant, outline};
-pub(crate) use outline::{Corner, Outline, Place, doubled_area, shows};
+pub(crate) use outline::{Corner, Outline, Place, doubled_area, facing};
 pub(crate) use plane::{Plane, Slopes};
 
 use crate::math::Scale;

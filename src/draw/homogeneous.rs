@@ -36,17 +36,15 @@ where
         let positions = T::homogeneous(vertices.map(|v| &v.position))?;
         // Before anything is made of them: half of a mesh's triangles look away.
         let determinant = determinant(positions);
-        let Some(facing) = Facing::of(determinant) else {
-            return Some(Outcome::ZeroArea);
-        };
-        if self.cull.hides(facing) {
-            return Some(Outcome::Culled);
+        let facing = Facing::of(determinant);
+        if let Some(outcome) = self.turned_away(facing) {
+            return Some(outcome);
         }
         let [a, b, c] = vertices.map(|v| v.outside.0);
         if self.cuts::<N>(outside) || outside.0 & (Outside::HITHER | Outside::SIDES) != 0 {
             return None;
         }
-        let outline = outline(positions, facing, &self.viewport)?;
+        let outline = outline(positions, facing?, &self.viewport)?;
         if F::UNIFORM && D::BITS == 0 && N == 0 {
             let whole = outline.bounds();
             return Some(self.fill_within::<Stepped, F, N>(&outline, whole, fragment));

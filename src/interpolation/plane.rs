@@ -5,7 +5,7 @@
 //! range.
 //!
 //! Values are in raw steps times 2^8, modulo 2^32: varyings beyond 127 have no planes. A plane is off by less than
-//! 2^13 of those in boxes below 512 px: 2^-11 of one, where its gradient takes all bits; in practice a part of
+//! 2^13 of those in boxes below 512 px (2^14 where they are very thin): 2^-11 of one, where its gradient takes all bits; in practice a part of
 //! that, as gradients of `[0, 1]` over a box of `2^n` pixels are `2^(24 - n)`, far from the 2^32 that are there.
 //!
 //! Pieces have planes for `q = h / w` and the numerators `n = (u - u_0) q`, Q30, both at most 1 in magnitude: off by

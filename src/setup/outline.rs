@@ -4,7 +4,7 @@
 //! differences take 20 bits, the doubled area 38: it is the only value here of more than 32 bits.
 //! No edge function is made, no box is needed but to clip, and nothing is divided.
 
-use super::{Cull, Facing};
+use super::Facing;
 use crate::vertex::Rect;
 use core::mem::swap;
 
@@ -119,10 +119,4 @@ impl Outline {
             y1: r.row(bits),
         }
     }
-}
-
-/// Whether a facing is left out, or there is none: the outcome is [`Cull`]'s to name.
-#[inline]
-pub(crate) fn shows(doubled_area: i64, cull: Cull) -> Option<bool> {
-    facing(doubled_area).map(|facing| !cull.hides(facing))
 }

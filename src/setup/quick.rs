@@ -18,8 +18,7 @@
 //! x 3 matrix of entries in [-1, 1] has one of at most 4), so in pixel space it is below
 //! `2^19 2^44 = 2^63`. Its partial sums may pass `i64`, so they wrap; the total does not.
 
-use super::outline::facing;
-use super::{Extent, Facing, Outline, Setup, Tier, bounds, doubled_area};
+use super::{Extent, Facing, Outline, Setup, Tier, bounds, doubled_area, facing};
 use crate::math::{Scale, bits};
 use crate::vertex::{GUARD_BAND, HOMOGENEOUS_BITS, Quick, QuickPosition, Rect, Viewport};
 
