@@ -83,9 +83,18 @@ pub trait DepthTest: core::fmt::Debug {
     #[doc(hidden)]
     type Word: DepthWord;
 
-    /// The stored depths of `length` pixels from `(x, y)` of the buffer, which has them; none where there is no depth.
+    /// Hands `draw` the stored depths of `length` pixels from the `at`th of the buffer, row by row, which has them; none
+    /// where there is no depth. Not returned: whether there are some would be looked at twice.
     #[doc(hidden)]
-    fn row(&mut self, x: usize, y: usize, length: usize) -> Option<&mut [Self::Word]>;
+    fn run(&mut self, at: usize, length: usize, draw: impl FnOnce(&mut [Self::Word]));
+
+    /// The same of all depths from the `at`th on.
+    #[doc(hidden)]
+    fn from(&mut self, at: usize, draw: impl FnOnce(&mut [Self::Word]));
+
+    /// Whether it serves a target of this size.
+    #[doc(hidden)]
+    fn fits(&self, target: (u32, u32)) -> bool;
 
     /// Tests a running value against a stored depth, and stores it where it passes.
     #[doc(hidden)]
@@ -104,8 +113,14 @@ impl DepthTest for NoDepth {
     type Word = u16;
 
     #[inline]
-    fn row(&mut self, _: usize, _: usize, _: usize) -> Option<&mut [u16]> {
-        None
+    fn run(&mut self, _: usize, _: usize, _: impl FnOnce(&mut [u16])) {}
+
+    #[inline]
+    fn from(&mut self, _: usize, _: impl FnOnce(&mut [u16])) {}
+
+    #[inline]
+    fn fits(&self, _: (u32, u32)) -> bool {
+        true
     }
 
     #[inline]
@@ -171,9 +186,22 @@ impl<W: DepthWord, C: Compare> DepthTest for DepthBuffer<'_, W, C> {
     type Word = W;
 
     #[inline]
-    fn row(&mut self, x: usize, y: usize, length: usize) -> Option<&mut [W]> {
-        let start = y.wrapping_mul(self.width as usize).wrapping_add(x);
-        self.words.get_mut(start..start.wrapping_add(length))
+    fn run(&mut self, at: usize, length: usize, draw: impl FnOnce(&mut [W])) {
+        if let Some(run) = self.words.get_mut(at..at.wrapping_add(length)) {
+            draw(run);
+        }
+    }
+
+    #[inline]
+    fn from(&mut self, at: usize, draw: impl FnOnce(&mut [W])) {
+        if let Some(rest) = self.words.get_mut(at..) {
+            draw(rest);
+        }
+    }
+
+    #[inline]
+    fn fits(&self, target: (u32, u32)) -> bool {
+        self.size() == target
     }
 
     #[inline]
@@ -205,8 +233,11 @@ mod tests {
         step: u32,
     ) -> Vec<bool> {
         let runs = (0..).map(|i: u32| running.wrapping_add(i.wrapping_mul(step)));
-        let row = buffer.row(x as usize, y as usize, length as usize).unwrap_or_default();
-        row.iter_mut().zip(runs).map(|(d, r)| D::passes(r, d)).collect()
+        let mut passed = Vec::new();
+        buffer.run((2 * y + x) as usize, length as usize, |run| {
+            passed = run.iter_mut().zip(runs).map(|(d, r)| D::passes(r, d)).collect();
+        });
+        passed
     }
 
     #[test]
@@ -220,7 +251,7 @@ mod tests {
     #[test]
     fn always_stores_the_farthest_too() {
         let mut words = [u32::FAR; 4];
-        let mut buffer = DepthBuffer::try_new(&mut words, 4, 1).unwrap().with_compare(Always);
+        let mut buffer = DepthBuffer::try_new(&mut words, 2, 2).unwrap().with_compare(Always);
         assert_eq!(test(&mut buffer, (1, 0), 2, u32::MAX, 0), [true, true]);
     }
 

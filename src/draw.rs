@@ -15,13 +15,15 @@ use crate::depth::{DepthPlane, DepthTest};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates, Varyings};
+use crate::math::signed;
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
 use crate::setup::{Facing, Outline, Part, Setup, Slopes, Tier, doubled_area, facing};
-use crate::traversal::ClipWalk;
+use crate::traversal::{ClipWalk, ProjectedSide, SmallRows, is_small};
 use crate::vertex::{ClipVertex, Distance, Outside, Position, Rect, Vertex};
 use core::slice::from_mut;
 use fixed::types::I16F16;
-use shade::Shading;
+use projected::Deep;
+use shade::{NoVaryings, Shading};
 use shape::Shape;
 
 /// What became of a triangle.
@@ -137,6 +139,9 @@ where
             bit <<= 1;
         }
         let position = T::snap(vertex, least_w, &self.viewport);
+        if position.is_projected() {
+            outside.0 |= Outside::PROJECTED;
+        }
         let depth = if D::BITS > 0 { position.depth(vertex) } else { None };
         if depth.is_some() {
             outside.0 |= Outside::RANGED;
@@ -166,28 +171,70 @@ where
     }
 
     /// Draws one triangle from vertices that this frame has snapped.
-    #[inline(never)]
+    #[inline(always)]
     pub fn draw_snapped<F, const N: usize>(
         &mut self,
-        vertices: [&Vertex<T, N, P>; 3],
+        [a, b, c]: [&Vertex<T, N, P>; 3],
         fragment: &F,
     ) -> Outcome
     where
         F: Fragment<C::Color, N>,
         W: Interpolates<N>,
     {
+        self.draw_vertices(a, b, c, fragment)
+    }
+
+    /// [`draw_snapped`](Self::draw_snapped), by references in registers.
+    #[inline(never)]
+    fn draw_vertices<F, const N: usize>(
+        &mut self,
+        a: &Vertex<T, N, P>,
+        b: &Vertex<T, N, P>,
+        c: &Vertex<T, N, P>,
+        fragment: &F,
+    ) -> Outcome
+    where
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
+        let vertices = [a, b, c];
+        let [a, b, c] = vertices.map(|v| v.outside.0);
+        let (any, all) = (Outside(a | b | c), a & b & c);
+        if any.0 & Outside::BOUNDS != 0 || (T::PROJECTS && all & Outside::PROJECTED == 0) {
+            if let Some(outcome) = self.draw_outside(vertices, fragment) {
+                return outcome;
+            }
+        }
+        let outcome = if T::PROJECTS {
+            let ranged = all & Outside::RANGED != 0;
+            self.draw_projected(vertices, ranged, fragment)
+        } else {
+            self.draw_homogeneous(vertices, any, fragment)
+        };
+        match outcome {
+            Some(outcome) => outcome,
+            None => self.draw_any(vertices, any, fragment),
+        }
+    }
+
+    /// Draws a triangle that some bound concerns, or that is not projected; `None` where it is as any other after all.
+    #[inline(never)]
+    fn draw_outside<F, const N: usize>(
+        &mut self,
+        vertices: [&Vertex<T, N, P>; 3],
+        fragment: &F,
+    ) -> Option<Outcome>
+    where
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
         let [a, b, c] = vertices.map(|v| v.outside.0);
         if let Some(outcome) = rejected::<W, N>(a & b & c) {
-            return outcome;
+            return Some(outcome);
         }
         let outside = Outside(a | b | c);
-        if let Some(outcome) = self.draw_projected(vertices, outside, fragment) {
-            return outcome;
-        }
-        if let Some(outcome) = self.draw_homogeneous(vertices, outside, fragment) {
-            return outcome;
-        }
-        self.draw_any(vertices, outside, fragment)
+        let projected = a & b & c & Outside::PROJECTED != 0 && !self.cuts::<N>(outside);
+        (T::PROJECTS && !projected).then(|| self.draw_any(vertices, outside, fragment))
     }
 
     /// Draws a triangle by its edge functions in 64 bits: external ones, those that planes cut, and what has no planes.
@@ -211,8 +258,7 @@ where
         if self.cull.hides(setup.facing) {
             return Outcome::Culled;
         }
-        let (left, top) = self.viewport.origin;
-        let visible = self.window().moved(-left, -top);
+        let visible = self.known_window();
         let boxes = [Part::Front, Part::Behind].map(|part| setup.bounds(part).intersect(visible));
         let [front, behind] = boxes;
         if front.is_empty() && (!W::BEHIND || behind.is_empty()) {
@@ -244,47 +290,72 @@ where
         }
     }
 
-    /// Draws a triangle of three projected vertices; `None` where it is not one, or has to be drawn as any other.
-    #[inline(never)]
+    /// Draws a triangle of three projected vertices that no plane cuts; `None` where it has to be drawn as any other.
+    #[inline(always)]
     fn draw_projected<F, const N: usize>(
         &mut self,
         vertices: [&Vertex<T, N, P>; 3],
-        outside: Outside,
+        ranged: bool,
         fragment: &F,
     ) -> Option<Outcome>
     where
         F: Fragment<C::Color, N>,
         W: Interpolates<N>,
     {
-        let corners = T::projected(vertices.map(|v| &v.position))?;
+        if D::BITS > 16 || (D::BITS > 0 && !ranged) {
+            return None;
+        }
+        let corners = T::corners(vertices.map(|v| &v.position));
         // Before anything is made of them: half of a mesh's triangles look away.
         let area = doubled_area(&corners);
         if let Some(outcome) = self.turned_away(facing(area)) {
             return Some(outcome);
         }
-        if self.cuts::<N>(outside) {
-            return None;
+        if F::UNIFORM && D::BITS == 0 && N == 0 {
+            return Some(self.fill_projected(&Outline::new(&corners, area > 0), fragment));
         }
-        let corners = self.in_target(corners);
-        let outline = Outline::new(&corners, area > 0);
+        if N == 0 {
+            // Before the outline is made: both together take more registers than there are.
+            let slopes = Slopes::new(&corners, area, T::SUBPIXEL_BITS)?;
+            let depth = self.depth_plane(&slopes, vertices);
+            let outline = Outline::new(&corners, area > 0);
+            let whole = outline.bounds(T::SUBPIXEL_BITS);
+            if self.is_small(whole) {
+                if whole.is_empty() {
+                    return Some(Outcome::OffScreen);
+                }
+                let edges = self.short_rows(&outline, whole);
+                self.draw_small(edges, whole, depth, fragment);
+                return Some(Outcome::Drawn);
+            }
+            let Some(shape) = self.shape(outline) else {
+                return Some(Outcome::OffScreen);
+            };
+            self.draw_edges::<ProjectedSide, _, _, N>(
+                &Deep { shape, depth },
+                &NoVaryings,
+                fragment,
+            );
+            return Some(Outcome::Drawn);
+        }
+        let Some(shape) = self.shape(Outline::new(&corners, area > 0)) else {
+            return Some(Outcome::OffScreen);
+        };
+        let slopes = Slopes::new(&corners, area, T::SUBPIXEL_BITS)?;
+        let depth = self.depth_plane(&slopes, vertices);
+        self.draw_varying(&Deep { shape, depth }, &slopes, vertices, fragment)?;
+        Some(Outcome::Drawn)
+    }
+
+    /// What the window has of an outline, if anything.
+    #[inline(always)]
+    fn shape(&mut self, outline: Outline) -> Option<Shape> {
         let whole = outline.bounds(T::SUBPIXEL_BITS);
         // Looked at, whatever the outcodes say: the vertices may be another viewport's.
-        let window = self.window();
-        let inside = window.holds(whole);
-        if F::UNIFORM && D::BITS == 0 && N == 0 {
-            return Some(if inside {
-                self.fill_inside(&outline, whole, fragment)
-            } else {
-                self.fill_windowed(&outline, whole, fragment)
-            });
-        }
+        let window = self.known_window();
         let bounds = whole.intersect(window);
-        if bounds.is_empty() {
-            return Some(Outcome::OffScreen);
-        }
-        let shape = Shape::new(outline, bounds, inside, T::SUBPIXEL_BITS);
-        let slopes = Slopes::new(&corners, area, whole, T::SUBPIXEL_BITS)?;
-        self.shade_shape(shape, &slopes, vertices, fragment)
+        let short = window.holds(whole) && is_small(whole);
+        (!bounds.is_empty()).then_some(Shape { outline, bounds, short })
     }
 
     /// Why a triangle that faces this way, or none, is not drawn, if it is not.
@@ -296,12 +367,19 @@ where
         }
     }
 
-    /// Corners in the target's subpixels, of those in the viewport's.
+    /// Whether the whole of a triangle is in the window, and small. Looked at, whatever the outcodes say: the vertices may be
+    /// another viewport's.
     #[inline]
-    fn in_target(&self, corners: [[i32; 2]; 3]) -> [[i32; 2]; 3] {
-        let (left, top) = self.viewport.origin;
-        let (left, top) = (left << T::SUBPIXEL_BITS, top << T::SUBPIXEL_BITS);
-        corners.map(|[x, y]| [x + left, y + top])
+    fn is_small(&self, whole: Rect) -> bool {
+        self.small_window.holds(whole) && is_small(whole)
+    }
+
+    /// The rows of a small triangle in this target.
+    #[inline(always)]
+    fn short_rows(&self, outline: &Outline, whole: Rect) -> SmallRows {
+        let (width, _) = self.target.size();
+        let outline = outline.moved(-whole.x0, T::SUBPIXEL_BITS);
+        SmallRows::new(&outline, whole, T::SUBPIXEL_BITS, signed(width))
     }
 
     /// Whether planes may cut a triangle of which some vertex is outside of these bounds.
@@ -444,6 +522,134 @@ fn rejected<W: Interpolates<N>, const N: usize>(all: u16) -> Option<Outcome> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        DepthBuffer, FaceColors, Flat, Framebuffer, PackedEvery, Quick, Rgb565, Vertex, Viewport,
+    };
+    use std::vec;
+    use std::vec::Vec;
+
+    /// A target that can no more than it must, of rows of any width.
+    struct Plain {
+        words: Vec<u16>,
+        width: usize,
+    }
+
+    impl Plain {
+        fn new(width: usize, height: usize) -> Self {
+            Self { words: vec![0; width * height], width }
+        }
+    }
+
+    impl Target for Plain {
+        type Color = Rgb565;
+
+        fn size(&self) -> (u32, u32) {
+            (self.width as u32, (self.words.len() / self.width) as u32)
+        }
+
+        fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<Rgb565>>) {
+            let row = self.words.chunks_mut(self.width).nth(y).unwrap();
+            let mut left = row[x..].iter_mut();
+            for color in colors {
+                let word = left.next().expect("a run is inside of its row");
+                *word = color.map_or(*word, |color| color.0);
+            }
+        }
+    }
+
+    /// Triangles of all sizes in and around a frame, each in its colour, without depth and with it: the words of both.
+    fn draw_all<C: Target<Color = Rgb565>>(
+        targets: [C; 2],
+        (width, height): (u32, u32),
+        origin: (i16, i16),
+    ) -> [C; 2] {
+        let hither = Hither::new(I16F16::ONE).unwrap();
+        let viewport = Viewport::new(64, 48).unwrap().with_origin(origin.0, origin.1);
+        let mut depths = vec![u16::MAX; (width * height) as usize];
+        let [flat, deep] = targets;
+        let mut flat = Frame::with_viewport(flat, viewport).with_tier(Quick::<8>);
+        let deep = Frame::with_viewport(deep, viewport).with_tier(Quick::<8>).with_hither(hither);
+        let depth = DepthBuffer::try_new(&mut depths, width, height).unwrap();
+        let mut deep = deep.with_depth(depth).unwrap().with_correction(PackedEvery::<8>);
+        let mut state = 1u64;
+        let mut below = move |n: i32| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            ((state >> 33) % u64::from(n.unsigned_abs())) as i32
+        };
+        for n in 1..600u16 {
+            let reach = 2 << below(16);
+            let at = [0, 1].map(|_| below(1 << 17) - (1 << 16));
+            let corners = [(); 3].map(|()| {
+                let [x, y] = at.map(|at| at + below(2 * reach) - reach);
+                let [x, y, z] = [x, y, below(1 << 16)].map(I16F16::from_bits);
+                ClipVertex::new(x, y, z, I16F16::ONE)
+            });
+            let corners = corners.map(|corner| (corner, []));
+            flat.draw_triangle(corners, &Flat(Rgb565(n)));
+            deep.draw_triangle(corners, &Flat(Rgb565(n)));
+        }
+        [flat.into_parts().0, deep.into_parts().0]
+    }
+
+    /// Runs of small triangles are counted in the target's rows: where those are too wide for it, and in targets that take
+    /// rows one by one, the picture is the same.
+    #[test]
+    fn targets_of_any_width_and_kind_have_the_same_picture() {
+        let (width, height) = (64, 48);
+        let mut words = [vec![0; 64 * 48], vec![0; 64 * 48]];
+        let [a, b] = &mut words;
+        let buffers =
+            [a, b].map(|words| Framebuffer::<Rgb565>::try_new(words, width, height).unwrap());
+        draw_all(buffers, (width, height), (0, 0));
+        assert!(words.iter().all(|words| words.iter().filter(|&&word| word > 0).count() > 2500));
+        let plain = draw_all([(); 2].map(|()| Plain::new(64, 48)), (width, height), (0, 0));
+        assert!(words[0] == plain[0].words && words[1] == plain[1].words);
+        for (wide, origin) in [(800, (730, 3)), (816, (752, 0)), (817, (0, 2)), (2000, (1900, 1))] {
+            let plains = [(); 2].map(|()| Plain::new(wide, 52));
+            for (words, target) in words.iter().zip(draw_all(plains, (wide as u32, 52), origin)) {
+                for (y, row) in words.chunks(64).enumerate() {
+                    let start = (y + origin.1 as usize) * wide + origin.0 as usize;
+                    assert_eq!(row, &target.words[start..start + 64], "row {y} of {wide} wide");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_target_of_another_size_than_the_depth_buffer_shows_nothing() {
+        let (mut words, mut others, mut depths) = ([0; 64], [0; 64], [u16::MAX; 64]);
+        let buffer = Framebuffer::<Rgb565>::try_new(&mut words, 8, 8).unwrap();
+        let hither = Hither::new(I16F16::ONE).unwrap();
+        let frame = Frame::new(buffer).unwrap().with_tier(Quick::<8>).with_hither(hither);
+        let depth = DepthBuffer::try_new(&mut depths, 8, 8).unwrap();
+        let mut frame = frame.with_depth(depth).unwrap();
+        let corner = |x: i32, y: i32| {
+            let [x, y] = [x, y].map(I16F16::from_num);
+            (ClipVertex::new(x, y, I16F16::ZERO, I16F16::ONE), [])
+        };
+        let corners = [corner(-1, -1), corner(1, -1), corner(0, 1)];
+        assert_eq!(frame.draw_triangle(corners, &Flat(Rgb565(7))), Outcome::Drawn);
+        *frame.target_mut() = Framebuffer::<Rgb565>::try_new(&mut others, 4, 4).unwrap();
+        assert_eq!(frame.draw_triangle(corners, &Flat(Rgb565(7))), Outcome::OffScreen);
+        assert!(words.contains(&7) && !others.contains(&7));
+    }
+
+    #[test]
+    fn an_empty_vertex_draws_nothing() {
+        let mut words = [0; 64];
+        let buffer = Framebuffer::<Rgb565>::try_new(&mut words, 8, 8).unwrap();
+        let mut frame = Frame::new(buffer).unwrap().with_tier(Quick::<8>);
+        let corner = |x: i32, y: i32| {
+            let [x, y] = [x, y].map(I16F16::from_num);
+            frame.snap(&ClipVertex::new(x, y, I16F16::ZERO, I16F16::ONE), [])
+        };
+        let [a, b] = [corner(1, 1), corner(1, -1)];
+        let colors = [Rgb565(7)];
+        let fragment = FaceColors::new(&colors).unwrap();
+        let outcome = frame.draw_snapped([&a, &Vertex::EMPTY, &b], &fragment);
+        assert_eq!(outcome, Outcome::ZeroArea);
+        assert_eq!(words, [0; 64]);
+    }
 
     #[test]
     fn counts_add_up() {

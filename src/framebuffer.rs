@@ -37,26 +37,25 @@ pub trait Target {
     /// What a pixel is drawn with.
     type Color: Copy;
 
-    /// Width and height in pixels.
+    /// Width and height in pixels, the same whenever they are asked for.
     fn size(&self) -> (u32, u32);
 
     /// Writes pixels of row `y` from column `x` on, as many as `colors` yields, all inside of the
     /// target; those that are `None` keep what they were.
     fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<Self::Color>>);
 
-    /// Writes pixels of row `y` from column `x` on, one for each of `lanes`, all inside of the target:
-    /// what `color` makes of it. One counter for both is less than an iterator's two, and one for `CHUNK` pixels less
+    /// Writes pixels of row `y` from column `x` on, which is pixel `at = y width + x`, one for each of `lanes`, all inside of
+    /// the target: what `color` makes of it. One counter for both is less than an iterator's two, and one for `CHUNK` pixels less
     /// than that, while all a chunk needs is in registers.
     #[doc(hidden)]
     #[inline]
     fn write_each<L, const CHUNK: usize>(
         &mut self,
-        x: usize,
-        y: usize,
+        (x, y, _): (usize, usize, usize),
         lanes: &mut [L],
-        color: impl FnMut(&mut L) -> Option<Self::Color>,
+        mut color: impl FnMut(&mut L, bool) -> Option<Self::Color>,
     ) {
-        self.write(x, y, lanes.iter_mut().map(color));
+        self.write(x, y, lanes.iter_mut().map(|lane| color(lane, false)));
     }
 
     /// Fills `length` pixels of row `y` from column `x` on with one colour.
@@ -81,6 +80,56 @@ pub trait Target {
                 let (x0, length) = run(x0, x1);
                 self.fill(x + x0, y + row, length, color);
             }
+        }
+    }
+
+    /// Fills a run a row with one colour, all inside of the target, most of a few pixels: from pixel `i0` to before `i1`, counted
+    /// row by row from column `x` of row `y`.
+    #[doc(hidden)]
+    #[inline]
+    fn fill_runs(
+        &mut self,
+        x: usize,
+        y: usize,
+        runs: impl Iterator<Item = (i32, i32)>,
+        color: Self::Color,
+    ) {
+        let (width, _) = self.size();
+        let mut before = 0;
+        for (row, (i0, i1)) in runs.enumerate() {
+            if i0 < i1 {
+                let (i0, length) = run(i0, i1);
+                self.fill(x + i0 - before, y + row, length, color);
+            }
+            before += width as usize;
+        }
+    }
+
+    /// Draws a run a row as [`fill_runs`](Self::fill_runs) fills them, from `(x, y)`, which is pixel `at`, with one of `lanes`
+    /// a pixel from there on: what `row` hands out for a run makes the colours of its pixels.
+    #[doc(hidden)]
+    #[inline]
+    fn write_runs<L, P>(
+        &mut self,
+        (x, y, at): (usize, usize, usize),
+        lanes: &mut [L],
+        runs: impl Iterator<Item = (i32, i32)>,
+        mut row: impl FnMut(i32, i32) -> P,
+    ) where
+        P: FnMut(&mut L) -> Option<Self::Color>,
+    {
+        let (width, _) = self.size();
+        let mut before = 0;
+        for (n, (i0, i1)) in runs.enumerate() {
+            let mut color = row(i0, i1);
+            let Some(lanes) = lanes.get_mut(index(i0)..index(i1)) else {
+                before += width as usize;
+                continue;
+            };
+            let i0 = index(i0);
+            let to = (x + i0 - before, y + n, at + i0);
+            self.write_each::<_, 1>(to, lanes, |lane, _| color(lane));
+            before += width as usize;
         }
     }
 
@@ -169,46 +218,47 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
     #[inline(always)]
     fn write_each<L, const CHUNK: usize>(
         &mut self,
-        x: usize,
-        y: usize,
+        (_, _, at): (usize, usize, usize),
         lanes: &mut [L],
-        mut color: impl FnMut(&mut L) -> Option<F::Color>,
+        mut color: impl FnMut(&mut L, bool) -> Option<F::Color>,
     ) {
-        let start = y.wrapping_mul(self.width as usize).wrapping_add(x);
-        let Some(words) = self.words.get_mut(start..start.wrapping_add(lanes.len())) else {
+        let Some(words) = self.words.get_mut(at..at.wrapping_add(lanes.len())) else {
             return;
         };
-        let mut draw = |word: &mut F::Word, lane: &mut L| {
-            if let Some(color) = color(lane) {
+        let mut draw = |word: &mut F::Word, lane: &mut L, first: bool| {
+            if let Some(color) = color(lane, first) {
                 *word = F::encode(color);
             }
         };
-        let (mut words, mut lanes) = (words, lanes);
         const { assert!(CHUNK == 1 || CHUNK == 2 || CHUNK == 4, "chunks are of 1, 2 or 4 pixels") }
+        let (mut words, mut lanes) = (words, lanes);
         if CHUNK > 1 && lanes.len() >= UNROLLED {
-            let mut word_chunks = words.chunks_exact_mut(CHUNK);
-            let mut lane_chunks = lanes.chunks_exact_mut(CHUNK);
-            for (words, lanes) in (&mut word_chunks).zip(&mut lane_chunks) {
+            let whole = lanes.len() - lanes.len() % CHUNK;
+            let (word_chunks, rest) = words.split_at_mut_checked(whole).unwrap_or_default();
+            words = rest;
+            let (lane_chunks, rest) = lanes.split_at_mut_checked(whole).unwrap_or_default();
+            lanes = rest;
+            let word_chunks = word_chunks.chunks_exact_mut(CHUNK);
+            for (words, lanes) in word_chunks.zip(lane_chunks.chunks_exact_mut(CHUNK)) {
                 match (words, lanes) {
                     ([w0, w1], [l0, l1]) => {
-                        draw(w0, l0);
-                        draw(w1, l1);
+                        draw(w0, l0, false);
+                        draw(w1, l1, false);
                     }
                     ([w0, w1, w2, w3], [l0, l1, l2, l3]) => {
-                        draw(w0, l0);
-                        draw(w1, l1);
-                        draw(w2, l2);
-                        draw(w3, l3);
+                        draw(w0, l0, true);
+                        draw(w1, l1, false);
+                        draw(w2, l2, false);
+                        draw(w3, l3, false);
                     }
                     _ => {}
                 }
                 // Nothing; but with it the loop is not unrolled further, which takes more registers than there are.
                 core::hint::black_box(());
             }
-            (words, lanes) = (word_chunks.into_remainder(), lane_chunks.into_remainder());
         }
         for (word, lane) in words.iter_mut().zip(lanes) {
-            draw(word, lane);
+            draw(word, lane, false);
             core::hint::black_box(());
         }
     }
@@ -242,6 +292,50 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
         }
     }
 
+    #[inline(always)]
+    fn fill_runs(
+        &mut self,
+        x: usize,
+        y: usize,
+        runs: impl Iterator<Item = (i32, i32)>,
+        color: F::Color,
+    ) {
+        let word = F::encode(color);
+        let words = self.from(x, y);
+        for (i0, i1) in runs {
+            if let Some(run) = words.get_mut(index(i0)..index(i1)) {
+                fill_short(run, word, fill_long);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn write_runs<L, P>(
+        &mut self,
+        (_, _, at): (usize, usize, usize),
+        lanes: &mut [L],
+        runs: impl Iterator<Item = (i32, i32)>,
+        mut row: impl FnMut(i32, i32) -> P,
+    ) where
+        P: FnMut(&mut L) -> Option<F::Color>,
+    {
+        let words = self.words.get_mut(at..).unwrap_or_default();
+        for (i0, i1) in runs {
+            let mut color = row(i0, i1);
+            let (i0, i1) = (index(i0), index(i1));
+            if let Some(words) = words.get_mut(i0..i1) {
+                if let Some(lanes) = lanes.get_mut(i0..i1) {
+                    for (word, lane) in words.iter_mut().zip(lanes) {
+                        if let Some(color) = color(lane) {
+                            *word = F::encode(color);
+                        }
+                        core::hint::black_box(());
+                    }
+                }
+            }
+        }
+    }
+
     fn clear(&mut self, color: F::Color) {
         self.words.fill(F::encode(color));
     }
@@ -256,13 +350,13 @@ fn fill<W: Pod>(run: &mut [W], word: W) {
     if run.len() > 8 {
         fill_long(run, word);
     } else {
-        fill_short(run, word);
+        fill_short(run, word, |_, _| {});
     }
 }
 
-/// Fills a run of up to 8 words.
-#[inline]
-fn fill_short<W: Copy>(run: &mut [W], word: W) {
+/// Fills a run of up to 8 words, or what is longer by `long`.
+#[inline(always)]
+fn fill_short<W: Copy>(run: &mut [W], word: W, long: impl FnOnce(&mut [W], W)) {
     match run {
         [] => {}
         [a] => *a = word,
@@ -279,7 +373,7 @@ fn fill_short<W: Copy>(run: &mut [W], word: W) {
         [a, b, c, d, e, f, g, h] => {
             (*a, *b, *c, *d, *e, *f, *g, *h) = (word, word, word, word, word, word, word, word);
         }
-        _ => {}
+        _ => long(run, word),
     }
 }
 
@@ -298,16 +392,16 @@ fn fill_long<W: Pod>(run: &mut [W], word: W) {
     let mut blocks = body.chunks_exact_mut(16);
     for sixteen in &mut blocks {
         let (first, second) = sixteen.split_at_mut(8);
-        fill_short(first, block);
-        fill_short(second, block);
+        fill_short(first, block, |_, _| {});
+        fill_short(second, block, |_, _| {});
         // Nothing; but with it the loop is not unrolled, which costs more before and after it.
         core::hint::black_box(());
     }
     let mut rest = blocks.into_remainder().chunks_exact_mut(8);
     if let Some(eight) = rest.next() {
-        fill_short(eight, block);
+        fill_short(eight, block, |_, _| {});
     }
-    fill_short(rest.into_remainder(), block);
+    fill_short(rest.into_remainder(), block, |_, _| {});
     tail.iter_mut().for_each(|w| *w = word);
 }
 

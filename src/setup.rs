@@ -34,9 +34,13 @@ pub trait Tier: Snap {
     #[doc(hidden)]
     const SUBPIXEL_BITS: u32;
 
-    /// The corners in subpixels, y down, where all three vertices are projected.
+    /// Whether vertices are projected where they can be; otherwise all are on the exact tier's grid.
     #[doc(hidden)]
-    fn projected(vertices: [&Self::Position; 3]) -> Option<[[i32; 2]; 3]>;
+    const PROJECTS: bool = false;
+
+    /// The corners in subpixels, y down, of three projected vertices.
+    #[doc(hidden)]
+    fn corners(vertices: [&Self::Position; 3]) -> [[i32; 2]; 3];
 
     /// The vertices on the exact tier's grid, where that is the tier's.
     #[doc(hidden)]

@@ -1,5 +1,5 @@
 //! Scanline traversal: from edge functions to spans, by additions; of projected triangles from their corners
-//! ([`Halves`]).
+//! ([`Rows`]).
 //!
 //! Each edge keeps the end of its interval on the current row and its exact value there. A row adds
 //! the edge's `b`; then the end moves a pixel at a time, one addition each, until the value changes
@@ -17,7 +17,8 @@ mod rows;
 mod side;
 
 pub(crate) use exact::Stepped;
-pub(crate) use rows::{Half, Halves};
+pub(crate) use rows::Rows;
+use rows::ShortRows;
 
 /// How the edges of projected triangles are followed. On ARMv6-M a division is a call of 200 instructions, and
 /// a 64-bit shift or product one of 15 to 40.
@@ -25,7 +26,13 @@ pub(crate) use rows::{Half, Halves};
 pub(crate) use side::Digital as ProjectedSide;
 #[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
 pub(crate) use side::Line as ProjectedSide;
-pub(crate) use side::{Short, Side};
+pub(crate) use side::{SMALL, Side, WIDEST, is_small};
+
+/// The rows of a small triangle, by the same choice.
+#[cfg(all(target_arch = "arm", not(target_has_atomic = "32")))]
+pub(crate) type SmallRows = ShortRows<side::Walked>;
+#[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
+pub(crate) type SmallRows = ShortRows<side::Short>;
 
 use crate::clip::{ClipEdges, HalfPlane};
 use crate::setup::Setup;

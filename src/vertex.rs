@@ -95,6 +95,10 @@ pub trait Position: Copy + Send + core::fmt::Debug + PartialEq {
     #[doc(hidden)]
     fn scale(&self) -> ScaleOf;
 
+    /// Whether a tier that projects has projected it; false in any other.
+    #[doc(hidden)]
+    fn is_projected(&self) -> bool;
+
     /// `k w` in the units of `scale`, rounded as the grid rounds it.
     #[doc(hidden)]
     fn scaled_w(&self) -> i32;
@@ -215,10 +219,14 @@ impl Outside {
     pub(crate) const SIDES: u16 = 0b1_1110;
     /// The first clip plane; the others follow.
     pub(crate) const FIRST_PLANE: u16 = 1 << 5;
+    /// All bounds.
+    pub(crate) const BOUNDS: u16 = Self::CLIPS | Self::SIDES;
     /// All planes that clip: hither and up to eight more.
     pub(crate) const CLIPS: u16 = 0b1_1111_1110_0001;
     /// Not a bound: `z / w` is not within ±4, so depths of the triangle may cancel.
     pub(crate) const STEEP: u16 = 1 << 15;
+    /// Not a bound: the vertex is projected.
+    pub(crate) const PROJECTED: u16 = 1 << 13;
     /// Not a bound: `z / w` is in `[0, 1]`, and is what the vertex keeps. Only where a frame has depth.
     pub(crate) const RANGED: u16 = 1 << 14;
 

@@ -1,54 +1,57 @@
 //! One colour, no depth, nothing that cuts: from corners to rows of the target, and no more.
 
 use super::{Frame, Outcome};
+use crate::depth::DepthTest;
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
-use crate::math::{SMALL_CORE, index};
+use crate::interpolation::Correction;
+use crate::math::index;
 use crate::setup::{Outline, Tier};
-use crate::traversal::{Halves, ProjectedSide, Short, Side};
+use crate::traversal::{ProjectedSide, Rows, Side};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
 where
     C: Target,
+    D: DepthTest,
     T: Tier,
+    I: Correction,
 {
-    /// Fills a triangle that is all inside of the window.
-    #[inline]
-    pub(super) fn fill_inside<F, const N: usize>(
+    /// Fills what the window has of a triangle of projected corners.
+    #[inline(always)]
+    pub(super) fn fill_projected<F, const N: usize>(
         &mut self,
         outline: &Outline,
-        whole: Rect,
         fragment: &F,
     ) -> Outcome
     where
         F: Fragment<C::Color, N>,
     {
+        let whole = outline.bounds(T::SUBPIXEL_BITS);
+        if !self.is_small(whole) {
+            // By value, so that a small triangle has its outline in registers.
+            return self.fill_any(*outline, fragment);
+        }
         if whole.is_empty() {
             return Outcome::OffScreen;
         }
         let color = self.uniform(whole, fragment);
-        if !SMALL_CORE && Short::fits(whole) {
-            self.fill_short(&outline.moved(-whole.x0, T::SUBPIXEL_BITS), whole, color);
-        } else {
-            self.fill_long::<ProjectedSide>(outline, whole, color);
-        }
+        let rows = self.short_rows(outline, whole);
+        let (left, top) = self.viewport.origin;
+        let (x, y) = (index(whole.x0 + left), index(whole.y0 + top));
+        self.target.fill_runs(x, y, rows, color);
         Outcome::Drawn
     }
 
-    /// Fills what the window has of a triangle. Not inlined, so that one that is inside has no registers for it.
+    /// [`fill_projected`](Self::fill_projected) of a triangle of any size. Not inlined, so that a small one has no registers for it.
     #[inline(never)]
-    pub(super) fn fill_windowed<F, const N: usize>(
-        &mut self,
-        outline: &Outline,
-        whole: Rect,
-        fragment: &F,
-    ) -> Outcome
+    fn fill_any<F, const N: usize>(&mut self, outline: Outline, fragment: &F) -> Outcome
     where
         F: Fragment<C::Color, N>,
     {
-        self.fill_within::<ProjectedSide, F, N>(outline, whole, fragment)
+        let whole = outline.bounds(T::SUBPIXEL_BITS);
+        self.fill_within::<ProjectedSide, F, N>(&outline, whole, fragment)
     }
 
     /// Fills what the window has of a triangle, whose edges are followed by `S` and whose box is `whole`.
@@ -62,15 +65,21 @@ where
     where
         F: Fragment<C::Color, N>,
     {
-        let bounds = whole.intersect(self.window());
+        let bounds = whole.intersect(self.known_window());
         if bounds.is_empty() {
             return Outcome::OffScreen;
         }
         let color = self.uniform(bounds, fragment);
+        let (left, top) = self.viewport.origin;
+        let outline = &outline.moved(left, T::SUBPIXEL_BITS);
+        let (start, end) = (bounds.x0 + left, bounds.x1 + left);
+        let y = index(bounds.y0 + top);
+        let rows = Rows::<S>::new(outline, bounds, T::SUBPIXEL_BITS);
         if bounds.x0 == whole.x0 && bounds.x1 == whole.x1 {
-            self.fill_long::<S>(outline, bounds, color);
+            self.target.fill_rows(0, y, rows, color);
         } else {
-            self.fill_clipped::<S>(outline, bounds, color);
+            let runs = rows.map(|(x0, x1)| (x0.max(start), x1.min(end)));
+            self.target.fill_rows(0, y, runs, color);
         }
         Outcome::Drawn
     }
@@ -81,47 +90,6 @@ where
     where
         F: Fragment<C::Color, N>,
     {
-        let (left, top) = self.viewport.origin;
-        let (x, y) = (bounds.x0 - left, bounds.y0 - top);
-        fragment.shade(Sample { x, y, varyings: [I16F16::ZERO; N] })
-    }
-
-    /// Fills a small triangle that is all inside of the target.
-    #[inline(always)]
-    fn fill_short(&mut self, outline: &Outline, bounds: Rect, color: C::Color) {
-        let bits = T::SUBPIXEL_BITS;
-        let mut halves = Halves::<Short>::new(outline, bounds, bits);
-        while let Some((y, mut half)) = halves.next() {
-            self.target.fill_rows(index(bounds.x0), index(y), &mut half, color);
-            halves.resume(half);
-        }
-    }
-
-    /// Fills the rows of `bounds`, which has all columns.
-    #[inline(never)]
-    fn fill_long<S: Side>(&mut self, outline: &Outline<S::Corner>, bounds: Rect, color: C::Color) {
-        let bits = T::SUBPIXEL_BITS;
-        let mut halves = Halves::<S>::new(outline, bounds, bits);
-        while let Some((y, mut half)) = halves.next() {
-            self.target.fill_rows(0, index(y), &mut half, color);
-            halves.resume(half);
-        }
-    }
-
-    /// Fills what is inside of `bounds`.
-    #[inline(always)]
-    fn fill_clipped<S: Side>(
-        &mut self,
-        outline: &Outline<S::Corner>,
-        bounds: Rect,
-        color: C::Color,
-    ) {
-        let bits = T::SUBPIXEL_BITS;
-        let mut halves = Halves::<S>::new(outline, bounds, bits);
-        while let Some((y, mut half)) = halves.next() {
-            let runs = half.by_ref().map(|(x0, x1)| (x0.max(bounds.x0), x1.min(bounds.x1)));
-            self.target.fill_rows(0, index(y), runs, color);
-            halves.resume(half);
-        }
+        fragment.shade(Sample { x: bounds.x0, y: bounds.y0, varyings: [I16F16::ZERO; N] })
     }
 }

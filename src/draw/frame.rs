@@ -5,7 +5,9 @@ use crate::color::Rgb565Be;
 use crate::depth::{Compare, DepthBuffer, DepthTest, DepthWord, NoDepth};
 use crate::framebuffer::{Framebuffer, Target};
 use crate::interpolation::Perspective;
+use crate::math::unsigned;
 use crate::setup::Cull;
+use crate::traversal::WIDEST;
 use crate::vertex::{Exact, Rect, Viewport, ViewportSize};
 use core::marker::PhantomData;
 
@@ -51,28 +53,15 @@ pub struct Frame<C, D = NoDepth, W = NoHither, T = Exact, I = Perspective, const
     pub(super) planes: [Plane; P],
     pub(super) cull: Cull,
     pub(super) viewport: Viewport,
-    window: Window,
+    /// What the target holds of the scissor, in the viewport's pixels; empty until it has been asked for.
+    pub(super) window: Rect,
+    /// The same where the target is one for [`SmallRows`](crate::traversal::SmallRows); otherwise empty.
+    pub(super) small_window: Rect,
     knobs: PhantomData<(T, I)>,
 }
 
-/// What a target of some size shows of the viewport, in the target's pixels. Kept, as it is asked for with every
-/// triangle.
-#[derive(Clone, Copy, Debug)]
-struct Window {
-    size: (u32, u32),
-    rect: Rect,
-}
-
-impl Window {
-    /// Of no target: no triangle has asked yet.
-    const UNKNOWN: Self = Self { size: (0, 0), rect: Rect { x0: 0, y0: 0, x1: 0, y1: 0 } };
-
-    /// Not inlined: it is asked for once a target.
-    #[inline(never)]
-    fn new(viewport: &Viewport, size: (u32, u32)) -> Self {
-        Self { size, rect: viewport.window(size.0, size.1) }
-    }
-}
+/// No window: the target has not been asked for its size yet.
+const UNKNOWN: Rect = Rect { x0: 0, y0: 0, x1: 0, y1: 0 };
 
 /// A frame with a depth buffer.
 type WithDepth<'a, C, W, O, T, I, const P: usize> =
@@ -100,7 +89,8 @@ impl<C: Target> Frame<C> {
             planes: [],
             cull: Cull::Neither,
             viewport,
-            window: Window::UNKNOWN,
+            window: UNKNOWN,
+            small_window: UNKNOWN,
             knobs: PhantomData,
         }
     }
@@ -155,6 +145,7 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
             cull: self.cull,
             viewport: self.viewport,
             window: self.window,
+            small_window: self.small_window,
             knobs: PhantomData,
         }
     }
@@ -185,6 +176,7 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
             cull: self.cull,
             viewport: self.viewport,
             window: self.window,
+            small_window: self.small_window,
             knobs: PhantomData,
         }
     }
@@ -212,9 +204,13 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
         &self.target
     }
 
-    /// The target, for other drawing into it: text, icons.
+    /// The target, for other drawing into it: text, icons. Another may be put in its place; one that is not of the depth
+    /// buffer's size shows nothing.
     #[must_use]
     pub const fn target_mut(&mut self) -> &mut C {
+        // It may be put in another's place.
+        self.window = UNKNOWN;
+        self.small_window = UNKNOWN;
         &mut self.target
     }
 
@@ -231,20 +227,28 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
     }
 }
 
-impl<C: Target, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
-    /// The part of the scissor that the target holds, in the target's pixels. [`Frame::target_mut`] may have put another
-    /// target in its place.
-    #[inline]
-    pub(super) fn window(&mut self) -> Rect {
-        let size = self.target.size();
-        if size != self.window.size {
-            self.window = Window::new(&self.viewport, size);
-        }
-        self.window.rect
-    }
-}
-
 impl<C: Target, D: DepthTest, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
+    /// The part of the scissor that the target holds, in the viewport's pixels.
+    #[inline]
+    pub(super) fn known_window(&mut self) -> Rect {
+        if self.window.is_empty() {
+            self.find_window();
+        }
+        self.window
+    }
+
+    /// Not inlined: it is done once a target.
+    #[inline(never)]
+    fn find_window(&mut self) {
+        let (width, height) = self.target.size();
+        if self.depth.fits((width, height)) {
+            self.window = self.viewport.window(width, height);
+            if width <= unsigned(WIDEST) {
+                self.small_window = self.window;
+            }
+        }
+    }
+
     /// Fills the whole target with one colour, whatever the scissor, and sets depth to the
     /// farthest.
     pub fn clear(&mut self, color: C::Color) {

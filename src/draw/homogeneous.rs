@@ -5,11 +5,11 @@ use super::projected::{Begins, Deep};
 use super::shade::NoVaryings;
 use super::shape::Shape;
 use super::{Frame, Outcome};
-use crate::depth::{DepthTest, projected};
+use crate::depth::DepthTest;
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Followed, Interpolates, Level, Quotients, Slope, same_w};
-use crate::setup::{Anchored, Facing, Plane, Slopes, Tier, determinant, outline};
+use crate::setup::{Anchored, Facing, Slopes, Tier, determinant, outline};
 use crate::traversal::Stepped;
 use crate::vertex::{Outside, Vertex};
 
@@ -40,8 +40,11 @@ where
         if let Some(outcome) = self.turned_away(facing) {
             return Some(outcome);
         }
-        let [a, b, c] = vertices.map(|v| v.outside.0);
         if self.cuts::<N>(outside) || outside.0 & (Outside::HITHER | Outside::SIDES) != 0 {
+            return None;
+        }
+        let [a, b, c] = vertices.map(|v| v.outside.0);
+        if D::BITS > 16 || (D::BITS > 0 && a & b & c & Outside::RANGED == 0) {
             return None;
         }
         let outline = outline(positions, facing?, &self.viewport)?;
@@ -53,19 +56,16 @@ where
         if N > 0 && !level && I::EVERY > 1 {
             return None;
         }
-        if D::BITS > 16 || (D::BITS > 0 && a & b & c & Outside::RANGED == 0) {
-            return None;
-        }
         let whole = outline.bounds();
-        let bounds = whole.intersect(self.window());
+        let bounds = whole.intersect(self.known_window());
         if bounds.is_empty() {
             return Some(Outcome::OffScreen);
         }
         let slopes = Slopes::homogeneous(positions, determinant, &whole, &self.viewport)?;
-        let depth = if D::BITS > 0 { projected(&slopes, vertices) } else { Plane::default() };
+        let depth = self.depth_plane(&slopes, vertices);
         let shape = Deep { shape: Shape { outline, bounds, short: false }, depth };
         if N == 0 {
-            self.draw_halves::<Stepped, _, _, N>(&shape, &NoVaryings, fragment);
+            self.draw_edges::<Stepped, _, _, N>(&shape, &NoVaryings, fragment);
         } else if level {
             self.draw_level(&shape, &slopes, vertices, fragment)?;
         } else {
@@ -86,11 +86,11 @@ where
     where
         F: Fragment<C::Color, N>,
     {
-        if let Some(lanes) = F::LANES.and_then(|lanes| Lanes::new(slopes, vertices, lanes)) {
-            self.draw_halves::<Stepped, _, _, N>(shape, &Separate(lanes), fragment);
+        if let Some(lanes) = Lanes::<C::Color, F, N>::new(slopes, vertices) {
+            self.draw_edges::<Stepped, _, _, N>(shape, &Separate(lanes), fragment);
         } else {
             let level = Level::new(slopes, vertices)?;
-            self.draw_halves::<Stepped, _, _, N>(shape, &&level, fragment);
+            self.draw_edges::<Stepped, _, _, N>(shape, &&level, fragment);
         }
         Some(())
     }
@@ -109,19 +109,19 @@ where
     {
         let channels = F::LANES.and_then(|lanes| Quotients::channels(slopes, vertices, lanes));
         if let Some(channels) = channels {
-            self.draw_halves::<Stepped, _, _, N>(shape, &EachChannel(&channels), fragment);
+            self.draw_edges::<Stepped, _, _, N>(shape, &EachChannel(&channels), fragment);
         } else {
             let quotients = Quotients::new(slopes, vertices)?;
-            self.draw_halves::<Stepped, _, _, N>(shape, &&quotients, fragment);
+            self.draw_edges::<Stepped, _, _, N>(shape, &&quotients, fragment);
         }
         Some(())
     }
 }
 
 /// Lanes as channels, each by itself.
-struct Separate<const N: usize>(Lanes<N>);
+struct Separate<C, F, const N: usize>(Lanes<C, F, N>);
 
-impl<const N: usize> Begins<N> for Separate<N> {
+impl<C: Copy, F: Fragment<C, N>, const N: usize> Begins<N> for Separate<C, F, N> {
     type Block = Channels<N>;
 
     #[inline]

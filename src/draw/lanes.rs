@@ -6,23 +6,23 @@
 //! varyings are in `[0, 1]` at the vertices, the half gives 1/2 to spare at both ends.
 
 use super::shade::Pixels;
-use crate::color::Lane;
 use crate::fragment::Fragment;
 use crate::interpolation::{Followed, Run};
 use crate::math::{signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Snap, Vertex};
+use core::marker::PhantomData;
 use fixed::types::I16F16;
 
 /// Pixels that are stepped from one start.
 pub(super) const LENGTH: i32 = 24;
 
-/// The lanes of one triangle: each a plane of its own, its whole number at the top of 32 bits.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lanes<const N: usize> {
-    each: [(Lane, Plane); N],
+/// The lanes of one triangle, which are a fragment's: each a plane of its own, its whole number at the top of 32 bits.
+pub(super) struct Lanes<C, F, const N: usize> {
+    each: [Plane; N],
     /// The word's step a pixel.
     step: u32,
+    fragment: PhantomData<(C, F)>,
 }
 
 /// A word along a row.
@@ -44,17 +44,17 @@ pub(super) struct Channels<const N: usize> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Divided<'a, const N: usize>(pub(super) Followed<'a, N>);
 
-impl<const N: usize> Lanes<N> {
+impl<C: Copy, F: Fragment<C, N>, const N: usize> Lanes<C, F, N> {
     /// The planes through three vertices whose varyings are in `[0, 1]`, where they have some.
     #[inline]
     pub(super) fn new<T: Snap, const P: usize>(
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
-        lanes: [Lane; N],
     ) -> Option<Self> {
-        let mut all = Self { each: lanes.map(|lane| (lane, Plane::default())), step: 0 };
+        let lanes = F::LANES?;
+        let mut all = Self { each: [Plane::default(); N], step: 0, fragment: PhantomData };
         let [a, b, c] = vertices.map(|v| &v.varyings);
-        for ((((lane, plane), a), b), c) in all.each.iter_mut().zip(a).zip(b).zip(c) {
+        for ((((plane, lane), a), b), c) in all.each.iter_mut().zip(lanes).zip(a).zip(b).zip(c) {
             let [u, v, w] = [a, b, c].map(|u: &I16F16| u.to_bits());
             if unsigned(u) > 1 << 16 || unsigned(v) > 1 << 16 || unsigned(w) > 1 << 16 {
                 return None;
@@ -73,17 +73,14 @@ impl<const N: usize> Lanes<N> {
     /// The channels from a pixel on.
     #[inline]
     pub(super) fn channels(&self, x: i32, y: i32) -> Channels<N> {
-        Channels {
-            at: self.each.map(|(_, plane)| plane.at(x, y)),
-            step: self.each.map(|(_, plane)| plane.x),
-        }
+        Channels { at: self.each.map(|plane| plane.at(x, y)), step: self.each.map(|plane| plane.x) }
     }
 
     /// The lanes from a pixel on.
     #[inline]
     pub(super) fn word(&self, x: i32, y: i32) -> Word {
         let mut at = 0;
-        for (lane, plane) in &self.each {
+        for (lane, plane) in F::LANES.iter().flatten().zip(&self.each) {
             at |= plane.at(x, y) >> (32 - lane.width) << lane.place;
         }
         Word { at, step: self.step }

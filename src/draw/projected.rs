@@ -1,23 +1,23 @@
 //! Projected triangles with depth or varyings that have planes: from corners to pixels, and nothing in between.
 
+use super::Frame;
 use super::lanes::{self, Lanes, Word};
 use super::shade::{NoVaryings, Pixels};
 use super::shape::Shape;
-use super::{Frame, Outcome};
-use crate::clip::Hither;
 use crate::depth::{DepthTest, projected};
-use crate::fragment::Fragment;
+use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
 use crate::interpolation::{
     Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of, wrapped,
 };
-use crate::math::{index, unsigned};
+use crate::math::{SMALL_CORE, index, signed, unsigned};
 use crate::setup::{Corner, Plane, Slopes, Tier};
 use crate::span::Span;
-use crate::traversal::{Half, Halves, ProjectedSide, Short, Side};
-use crate::vertex::{Outside, Vertex};
+use crate::traversal::{ProjectedSide, Rows as Edges, SMALL, Side, SmallRows};
+use crate::vertex::{Rect, Vertex};
 use core::hint::black_box;
 use core::marker::PhantomData;
+use fixed::types::I16F16;
 
 /// How far off a straight line may be that is not packed, in raw steps: 2^-9.
 const STRAIGHT: u32 = 1 << 7;
@@ -28,12 +28,18 @@ pub(super) struct Deep<C = Corner> {
     pub(super) depth: Plane,
 }
 
-/// Where a shape's rows are.
-struct Row<'a, F, S: Side> {
-    frame: &'a mut F,
-    shape: &'a Deep<S::Corner>,
-    half: Half<S>,
+/// Where a triangle's rows are.
+struct Row<'a, Frame, Edges, F> {
+    frame: &'a mut Frame,
+    edges: Edges,
+    depth: Plane,
+    fragment: F,
     y: i32,
+    /// The depth in column 0 of the row, or what would be there.
+    z: u32,
+    /// The target's pixel that column 0 of the row is, or would be, and pixels from row to row.
+    start: usize,
+    width: usize,
 }
 
 /// What a triangle's pixels are made from, a block of a row at a time.
@@ -42,6 +48,9 @@ pub(super) trait Rows<const N: usize> {
     type Block;
     /// What the next block of a row goes on from.
     type Joint;
+
+    /// Pixels of a block, at the most.
+    const LONGEST: i32;
 
     /// A row before its first block.
     fn joint(&self, span: Span) -> Self::Joint;
@@ -69,47 +78,30 @@ where
     T: Tier,
     I: Correction,
 {
-    /// Draws a shape with depth or varyings, if all it needs has planes.
-    #[inline]
-    pub(super) fn shade_shape<F, const N: usize>(
-        &mut self,
-        shape: Shape,
+    /// The plane of a triangle's depths, which are in the range, if any are kept.
+    #[inline(always)]
+    pub(super) fn depth_plane<const N: usize>(
+        &self,
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
-        fragment: &F,
-    ) -> Option<Outcome>
-    where
-        F: Fragment<C::Color, N>,
-        W: Interpolates<N>,
-    {
-        let [a, b, c] = vertices.map(|v| v.outside.0);
-        if D::BITS > 16 || (D::BITS > 0 && a & b & c & Outside::RANGED == 0) {
-            return None;
-        }
-        let depth = if D::BITS > 0 { projected(slopes, vertices) } else { Plane::default() };
-        let shape = &Deep { shape, depth };
-        match self.range.hither() {
-            Some(hither) if N > 0 => {
-                self.draw_varying(shape, slopes, vertices, hither, fragment)?;
-            }
-            _ => self.draw_shape(shape, &NoVaryings, fragment),
-        }
-        Some(Outcome::Drawn)
+    ) -> Plane {
+        if D::BITS == 0 { Plane::default() } else { projected(slopes, vertices) }
     }
 
-    /// Draws a shape with varyings, by the cheapest of what serves.
-    #[inline]
-    fn draw_varying<F, const N: usize>(
+    /// Draws a shape with varyings, by the cheapest of what serves; `None` where it has to be drawn as any other.
+    #[inline(always)]
+    pub(super) fn draw_varying<F, const N: usize>(
         &mut self,
         shape: &Deep,
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
-        hither: Hither,
         fragment: &F,
     ) -> Option<()>
     where
         F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
     {
+        let hither = self.range.hither()?;
         let q = nearness_of(vertices, hither);
         let tolerance = match I::EVERY {
             1 => 0,
@@ -117,8 +109,8 @@ where
             _ => STRAIGHT,
         };
         if I::AFFINE || is_straight(vertices, q, tolerance) {
-            if let Some(lanes) = F::LANES.filter(|_| I::PACKED) {
-                if let Some(lanes) = Lanes::new(slopes, vertices, lanes) {
+            if I::PACKED {
+                if let Some(lanes) = Lanes::<C::Color, F, N>::new(slopes, vertices) {
                     self.draw_shape(shape, &lanes, fragment);
                     return Some(());
                 }
@@ -149,16 +141,69 @@ where
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
     {
-        if shape.shape.short {
-            self.draw_halves::<Short, _, _, N>(shape, rows, fragment);
+        if N > 0 && shape.shape.short {
+            self.draw_short(shape, rows, fragment);
         } else {
-            self.draw_halves::<ProjectedSide, _, _, N>(shape, rows, fragment);
+            self.draw_edges::<ProjectedSide, _, _, N>(shape, rows, fragment);
         }
+    }
+
+    /// Draws the pixels of a small shape.
+    #[inline(never)]
+    fn draw_short<F, R, const N: usize>(&mut self, shape: &Deep, rows: &R, fragment: &F)
+    where
+        F: Fragment<C::Color, N>,
+        R: Rows<N, Block: Pixels<C::Color, F, N>>,
+    {
+        let Shape { outline, bounds, .. } = &shape.shape;
+        let edges = SmallRows::new(outline, *bounds, T::SUBPIXEL_BITS, 0);
+        self.draw_rows::<_, _, _, N, true>(edges, bounds.y0, shape.depth, rows, fragment);
+    }
+
+    /// Draws the pixels of a small triangle without varyings that is all in the window, of which this is the box.
+    #[inline(always)]
+    pub(super) fn draw_small<F, const N: usize>(
+        &mut self,
+        edges: SmallRows,
+        whole: Rect,
+        depth: Plane,
+        fragment: &F,
+    ) where
+        F: Fragment<C::Color, N>,
+    {
+        let (left, top) = self.viewport.origin;
+        let (width, _) = self.target.size();
+        let (x, y) = (index(whole.x0 + left), index(whole.y0 + top));
+        let at = y.wrapping_mul(width as usize).wrapping_add(x);
+        let fragment = *fragment;
+        // Of pixel 0 of the rows.
+        let mut z = depth.at(whole.x0, whole.y0);
+        let down = depth.y.wrapping_sub(depth.x.wrapping_mul(width));
+        let (mut row, mut column) = (whole.y0, whole.x0);
+        let target = &mut self.target;
+        self.depth.from(at, move |depths| {
+            target.write_runs((x, y, at), depths, edges, move |i0, i1| {
+                let span = Span { y: row, x0: column + i0, x1: column + i1 };
+                let mut z_here = z.wrapping_add(depth.x.wrapping_mul(unsigned(i0)));
+                row += 1;
+                column -= signed(width);
+                z = z.wrapping_add(down);
+                let mut x = span.x0;
+                move |stored: &mut D::Word| {
+                    let passes = D::passes(z_here, stored);
+                    z_here = z_here.wrapping_add(depth.x);
+                    let varyings = [I16F16::ZERO; N];
+                    let color = passes.then(|| fragment.shade(Sample { x, y: span.y, varyings }));
+                    x += 1;
+                    color
+                }
+            });
+        });
     }
 
     /// Draws the pixels of a shape, whose edges are followed by `S`.
     #[inline(never)]
-    pub(super) fn draw_halves<S, F, R, const N: usize>(
+    pub(super) fn draw_edges<S, F, R, const N: usize>(
         &mut self,
         shape: &Deep<S::Corner>,
         rows: &R,
@@ -169,79 +214,135 @@ where
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
     {
         let Shape { outline, bounds, .. } = &shape.shape;
-        let mut halves = Halves::<S>::new(outline, *bounds, T::SUBPIXEL_BITS);
-        while let Some((y, half)) = halves.next() {
-            let mut row = Row { frame: &mut *self, shape, half, y };
-            loop {
-                // What is behind this reference is read anew a row: the loop over pixels wants the registers.
-                let row = black_box(&mut row);
-                let Some((x0, x1)) = row.half.next() else {
-                    break;
-                };
-                let bounds = row.shape.shape.bounds;
-                let (y, x0, x1) = if S::WINDOWED {
-                    (row.y, x0.max(bounds.x0), x1.min(bounds.x1))
-                } else {
-                    (row.y, bounds.x0 + x0, bounds.x0 + x1)
-                };
-                row.y += 1;
-                if x0 < x1 {
-                    row.frame.draw_row(Span { y, x0, x1 }, row.shape.depth, rows, fragment);
-                }
-            }
-            halves.resume(row.half);
-        }
+        let (start, end) = (bounds.x0, bounds.x1);
+        let edges = Edges::<S>::new(outline, *bounds, T::SUBPIXEL_BITS)
+            .map(move |(x0, x1)| (x0.max(start), x1.min(end)));
+        self.draw_rows::<_, _, _, N, false>(edges, bounds.y0, shape.depth, rows, fragment);
     }
 
-    /// Draws a row that is not empty, a block after the other.
+    /// Draws the rows between edges from `y` down, which are in the window.
     #[inline(always)]
-    fn draw_row<F, R, const N: usize>(&mut self, span: Span, depth: Plane, rows: &R, fragment: &F)
-    where
+    fn draw_rows<E, F, R, const N: usize, const SHORT: bool>(
+        &mut self,
+        edges: E,
+        y: i32,
+        depth: Plane,
+        rows: &R,
+        fragment: &F,
+    ) where
+        E: Iterator<Item = (i32, i32)>,
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
     {
         let (left, top) = self.viewport.origin;
-        let mut running = depth.at(span.x0, span.y);
+        let (width, _) = self.target.size();
+        let start = index(y + top).wrapping_mul(width as usize).wrapping_add_signed(left as isize);
+        let (fragment, width) = (*fragment, width as usize);
+        let z = depth.at(0, y);
+        let mut row = Row { frame: self, edges, depth, fragment, y, z, start, width };
+        loop {
+            // What is behind this reference is read anew a row: the loop over pixels wants the registers.
+            let row = if SHORT { &mut row } else { black_box(&mut row) };
+            let Some((x0, x1)) = row.edges.next() else {
+                return;
+            };
+            let (y, start, z) = (row.y, row.start, row.z);
+            row.y += 1;
+            row.start = start.wrapping_add(row.width);
+            row.z = z.wrapping_add(row.depth.y);
+            if x0 < x1 {
+                let span = Span { y, x0, x1 };
+                let z = z.wrapping_add(row.depth.x.wrapping_mul(unsigned(x0)));
+                let depth = (z, row.depth.x, &row.depth);
+                row.frame.draw_row::<_, _, N, SHORT>(span, start, depth, rows, row.fragment);
+            }
+        }
+    }
+
+    /// Draws a row that is not empty, a block after the other. Its column 0 is pixel `start` of the target.
+    #[inline(always)]
+    fn draw_row<F, R, const N: usize, const SHORT: bool>(
+        &mut self,
+        span: Span,
+        start: usize,
+        (mut z, step, plane): (u32, u32, &Plane),
+        rows: &R,
+        fragment: F,
+    ) where
+        F: Fragment<C::Color, N>,
+        R: Rows<N, Block: Pixels<C::Color, F, N>>,
+    {
         let mut joint = rows.joint(span);
+        if SHORT && R::LONGEST >= SMALL {
+            let (block, _) = rows.block(span, &mut joint);
+            self.draw_pixels::<_, _, N, SHORT>(span, start, (z, step, plane), block, fragment);
+            return;
+        }
         let mut rest = span;
         while rest.x0 < rest.x1 {
-            let (mut block, length) = rows.block(rest, &mut joint);
-            let (x, y) = (index(rest.x0), index(rest.y));
-            let mut column = rest.x0 - left;
-            let fragment = *fragment;
-            let mut pixel = move |passes: bool| {
-                let color = passes.then(|| block.color(&fragment, column, span.y - top));
-                block.step();
-                column += 1;
-                color
-            };
-            if D::BITS == 0 {
-                self.target.write(x, y, (0..length).map(move |_| pixel(true)));
-            } else {
-                let Some(depths) = self.depth.row(x, y, index(length)) else {
-                    return;
-                };
-                let mut at = running;
-                let pixel = move |stored: &mut D::Word| {
-                    let passes = D::passes(at, stored);
-                    at = at.wrapping_add(depth.x);
-                    pixel(passes)
-                };
-                match R::Block::AT_ONCE {
-                    4 => self.target.write_each::<_, 4>(x, y, depths, pixel),
-                    2 => self.target.write_each::<_, 2>(x, y, depths, pixel),
-                    _ => self.target.write_each::<_, 1>(x, y, depths, pixel),
-                }
-                running = running.wrapping_add(depth.x.wrapping_mul(unsigned(length)));
-            }
+            let (block, length) = rows.block(rest, &mut joint);
+            let now = Span { x1: rest.x0 + length, ..rest };
+            self.draw_pixels::<_, _, N, SHORT>(now, start, (z, step, plane), block, fragment);
+            z = z.wrapping_add(step.wrapping_mul(unsigned(length)));
             rest.x0 += length;
         }
+    }
+
+    /// Draws a block of a row, whose depth is the first of three at its first pixel and steps by the second, as in the third.
+    #[inline(always)]
+    fn draw_pixels<F, B, const N: usize, const SHORT: bool>(
+        &mut self,
+        span: Span,
+        start: usize,
+        (mut z, mut step, plane): (u32, u32, &Plane),
+        mut block: B,
+        fragment: F,
+    ) where
+        F: Fragment<C::Color, N>,
+        B: Pixels<C::Color, F, N>,
+    {
+        let (left, top) = self.viewport.origin;
+        let Span { y, x0, x1 } = span;
+        let length = index(x1 - x0);
+        let mut x = x0;
+        let at = (index(x0 + left), index(y + top), start.wrapping_add(index(x0)));
+        let mut pixel = move |passes: bool| {
+            let color = passes.then(|| block.color(&fragment, x, y));
+            block.step();
+            x += 1;
+            color
+        };
+        let target = &mut self.target;
+        if D::BITS == 0 {
+            target.write(at.0, at.1, (0..length).map(move |_| pixel(true)));
+            return;
+        }
+        let pixel = move |stored: &mut D::Word, first: bool| {
+            if first {
+                // Made or read anew, so that its multiples are not kept: they take more registers than there are.
+                step = if SMALL_CORE {
+                    black_box(step)
+                } else {
+                    black_box(());
+                    plane.x
+                };
+            }
+            let passes = D::passes(z, stored);
+            z = z.wrapping_add(step);
+            pixel(passes)
+        };
+        self.depth.run(at.2, length, move |depths| match B::AT_ONCE {
+            4 if !SHORT => target.write_each::<_, 4>(at, depths, pixel),
+            2 if !SHORT => target.write_each::<_, 2>(at, depths, pixel),
+            _ => target.write_each::<_, 1>(at, depths, pixel),
+        });
     }
 }
 
 impl<const N: usize, B: Begins<N>> Rows<N> for B {
     type Block = B::Block;
     type Joint = ();
+    const LONGEST: i32 = B::LENGTH;
 
     #[inline]
     fn joint(&self, _: Span) {}
@@ -270,7 +371,7 @@ impl<const N: usize> Begins<N> for Linear<N> {
     }
 }
 
-impl<const N: usize> Begins<N> for Lanes<N> {
+impl<C: Copy, F: Fragment<C, N>, const N: usize> Begins<N> for Lanes<C, F, N> {
     type Block = Word;
     const LENGTH: i32 = lanes::LENGTH;
 
@@ -324,6 +425,7 @@ impl<I: Correction, const N: usize> Every<Pieces<N>, I> {
 impl<I: Correction, const N: usize> Rows<N> for Wrapped<Every<Pieces<N>, I>> {
     type Block = Word;
     type Joint = [i32; N];
+    const LONGEST: i32 = I::EVERY;
 
     #[inline]
     fn joint(&self, span: Span) -> [i32; N] {
@@ -342,6 +444,7 @@ impl<I: Correction, const N: usize> Rows<N> for Every<Pieces<N>, I> {
     type Block = Line<N>;
     /// The values where the next piece begins.
     type Joint = [i32; N];
+    const LONGEST: i32 = I::EVERY;
 
     #[inline]
     fn joint(&self, span: Span) -> [i32; N] {

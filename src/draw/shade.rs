@@ -5,6 +5,7 @@ use crate::depth::{DepthPlane, DepthRun, DepthTest};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::{Target, run};
 use crate::interpolation::{BLOCK, Correction, Joint, Mode, Run, Varyings};
+use crate::math::SMALL_CORE;
 use crate::setup::{Setup, Tier};
 use crate::span::Span;
 use crate::traversal::{ClipWalk, Spans};
@@ -176,7 +177,7 @@ where
         let (row, _) = run(y + top, y + top);
         let (mut running, step) = depth.running();
         let mut x = x0;
-        let mut pixel = |passes: bool| {
+        let mut pixel = move |passes: bool| {
             let color =
                 passes.then(|| fragment.shade(Sample { x, y, varyings: varyings.varyings() }));
             varyings.step();
@@ -187,13 +188,15 @@ where
             self.target.write(first, row, (0..length).map(|_| pixel(true)));
             return;
         }
-        let Some(depths) = self.depth.row(first, row, length) else {
-            return;
-        };
-        self.target.write_each::<_, 1>(first, row, depths, |stored| {
-            let passes = D::passes(running, stored);
-            running = running.wrapping_add(step);
-            pixel(passes)
+        let (width, _) = self.target.size();
+        let at = row.wrapping_mul(width as usize).wrapping_add(first);
+        let target = &mut self.target;
+        self.depth.run(at, length, move |depths| {
+            target.write_each::<_, 1>((first, row, at), depths, |stored, _| {
+                let passes = D::passes(running, stored);
+                running = running.wrapping_add(step);
+                pixel(passes)
+            });
         });
     }
 }
@@ -211,7 +214,12 @@ pub(super) trait Pixels<C, F, const N: usize> {
 }
 
 impl<C: Copy, F: Fragment<C, N>, R: Run<N>, const N: usize> Pixels<C, F, N> for R {
-    const AT_ONCE: usize = if N == 0 { 4 } else { 1 };
+    const AT_ONCE: usize = match N {
+        0 if SMALL_CORE => 4,
+        // Four take the registers of three multiples of a step.
+        0 => 4,
+        _ => 1,
+    };
 
     #[inline]
     fn color(&self, fragment: &F, x: i32, y: i32) -> C {

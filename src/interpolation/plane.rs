@@ -14,8 +14,10 @@
 
 use super::{ONE, Run, per_pixel};
 use crate::clip::Hither;
-use crate::math::{bits, high_product, low, normalized, product, reciprocal, signed, unsigned};
-use crate::setup::{Plane, Slopes};
+use crate::math::{
+    bits, high, high_product, low, normalized, product, reciprocal, signed, unsigned,
+};
+use crate::setup::{Plane, Slopes, Tier};
 use crate::vertex::{Position, ScaleOf, Snap, Vertex};
 use fixed::types::I16F16;
 
@@ -83,24 +85,20 @@ impl Numerator {
 /// `h / w` at the three vertices, Q30.
 pub(crate) type Nearness = [u32; 3];
 
-/// `h / w` of a projected vertex, Q30: at most 1.
+/// [`Nearness`] of a triangle of projected vertices, all three in front of the hither plane.
 #[inline]
-fn nearness<T: Snap, const N: usize, const P: usize>(v: &Vertex<T, N, P>, hither: Hither) -> u32 {
-    let ScaleOf(k) = v.position.scale();
-    // k w is a power of two; h k below 2^63.
-    let shift = bits(v.position.scaled_w().trailing_zeros()) - 30 - k.exponent;
-    let product = u64::from(unsigned(hither.raw())) * u64::from(k.mantissa);
-    let q = product.checked_shr(unsigned(shift)).unwrap_or(0);
-    u32::try_from(q).map_or(unsigned(ONE), |q| q.min(unsigned(ONE)))
-}
-
-/// [`Nearness`] of a triangle, all three in front of the hither plane.
-#[inline]
-pub(crate) fn nearness_of<T: Snap, const N: usize, const P: usize>(
+pub(crate) fn nearness_of<T: Tier, const N: usize, const P: usize>(
     vertices: [&Vertex<T, N, P>; 3],
     hither: Hither,
 ) -> Nearness {
-    vertices.map(|v| nearness(v, hither))
+    let (h, zeros) = normalized(unsigned(hither.raw()));
+    vertices.map(|v| {
+        let ScaleOf(k) = v.position.scale();
+        // k w is 2^(S - 1). Both factors are at least 2^31, and h / w at most 1: what is left to shift is not negative.
+        let shift = bits(T::SUBPIXEL_BITS + zeros) - 63 - k.exponent;
+        let product = high(u64::from(h) * u64::from(k.mantissa));
+        (product >> unsigned(shift).min(31)).min(unsigned(ONE))
+    })
 }
 
 /// The varyings of three vertices as raw numbers, one after the other, where all have planes.
@@ -130,15 +128,14 @@ pub(crate) fn is_straight<T: Snap, const N: usize, const P: usize>(
     if most == least {
         return true;
     }
-    let Some(all) = raw(vertices) else {
-        return false;
-    };
+    let [a, b, c] = vertices.map(|v| &v.varyings);
     let mut widest = 0;
-    for [u, v, w] in all {
-        widest = widest.max(u.max(v).max(w) - u.min(v).min(w));
+    for ((a, b), c) in a.iter().zip(b).zip(c) {
+        let [u, v, w] = [a, b, c].map(|u| u.to_bits());
+        // Below 2^32, whatever they are.
+        widest = widest.max(unsigned(u.max(v).max(w).wrapping_sub(u.min(v).min(w))));
     }
-    u64::from(most - least) * u64::from(unsigned(widest))
-        <= u64::from(least) * 4 * u64::from(tolerance)
+    u64::from(most - least) * u64::from(widest) <= u64::from(least) * 4 * u64::from(tolerance)
 }
 
 impl<const N: usize> Linear<N> {
@@ -257,7 +254,7 @@ impl<const N: usize> Run<N> for Line<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::{Outline, doubled_area};
+    use crate::setup::doubled_area;
     use crate::vertex::{ClipVertex, Quick, Viewport};
 
     /// Steps of a word are rounded from gradients modulo 2^32, of which any may be next to the end of the range.
@@ -272,8 +269,7 @@ mod tests {
             Vertex::<Quick<8>, 1> { position, z: 0, shift: 0, outside, varyings, distances: [] }
         });
         let area = doubled_area(&corners);
-        let bounds = Outline::new(&corners, area > 0).bounds(8);
-        let slopes = Slopes::new(&corners, area, bounds, 8).unwrap();
+        let slopes = Slopes::new(&corners, area, 8).unwrap();
         let [a, b, c] = &vertices;
         let linear = Linear::new(&slopes, [a, b, c]).unwrap();
         let [_, step] = linear.wrapped(3, 3);

@@ -64,7 +64,7 @@ pub(crate) struct Anchored {
     pub(crate) y: i32,
     /// 1 to `2^20`.
     pub(crate) w: i32,
-    /// In the target's pixels; at most 512 from those of other vertices.
+    /// In pixels; at most 512 from those of other vertices.
     pub(crate) column: i32,
     pub(crate) row: i32,
 }
@@ -76,14 +76,8 @@ impl Anchored {
     fn new(p: &ExactPosition, viewport: &Viewport) -> Option<Self> {
         let [x, y] = p.past_centre(viewport);
         let before = |v: i32| unsigned(v.wrapping_neg()) < unsigned(2 * p.w);
-        let (left, top) = viewport.origin;
-        (before(x) && before(y)).then_some(Self {
-            x,
-            y,
-            w: p.w,
-            column: i32::from(p.column) + left,
-            row: i32::from(p.row) + top,
-        })
+        let (column, row) = (i32::from(p.column), i32::from(p.row));
+        (before(x) && before(y)).then_some(Self { x, y, w: p.w, column, row })
     }
 
     /// From another vertex's pixel, in half units of `1 / w`: at most `2^30 + 2^21`.
@@ -99,6 +93,11 @@ impl Place for Anchored {
     fn row(self, _: u32) -> i32 {
         self.row
     }
+
+    #[inline]
+    fn moved(self, columns: i32, _: u32) -> Self {
+        Self { column: self.column + columns, ..self }
+    }
 }
 
 /// The outline of a triangle of three vertices with `w > 0`; `None` where one is not [`Anchored`].
@@ -108,23 +107,23 @@ pub(crate) fn outline(
     facing: Facing,
     viewport: &Viewport,
 ) -> Option<Outline<Anchored>> {
-    // Those of a row have no centre between them, and may be in any order.
-    let Outline { corners, turns_right } =
-        Outline::sorted(vertices, facing == Facing::Back, |v| i32::from(v.row));
-    let [top, middle, bottom] = corners.map(|v| Anchored::new(v, viewport));
-    Some(Outline { corners: [top?, middle?, bottom?], turns_right })
+    // Those of a row have no centre between them, and any may be the highest.
+    let Outline { top, left, right } =
+        Outline::from_top(vertices, facing == Facing::Back, |v| i32::from(v.row));
+    let [top, left, right] = [top, left, right].map(|v| Anchored::new(v, viewport));
+    Some(Outline { top: top?, left: left?, right: right? })
 }
 
 impl Outline<Anchored> {
     /// The box of the pixel centres it may cover.
     #[inline]
     pub(crate) fn bounds(&self) -> Rect {
-        let [p, q, r] = &self.corners;
+        let Self { top, left, right } = self;
         Rect {
-            x0: p.column.min(q.column).min(r.column),
-            y0: p.row,
-            x1: p.column.max(q.column).max(r.column),
-            y1: r.row,
+            x0: top.column.min(left.column).min(right.column),
+            y0: top.row,
+            x1: top.column.max(left.column).max(right.column),
+            y1: left.row.max(right.row),
         }
     }
 }
@@ -144,8 +143,8 @@ impl Tier for Exact {
     const SUBPIXEL_BITS: u32 = 0;
 
     #[inline]
-    fn projected(_: [&ExactPosition; 3]) -> Option<[[i32; 2]; 3]> {
-        None
+    fn corners(_: [&ExactPosition; 3]) -> [[i32; 2]; 3] {
+        [[0; 2]; 3]
     }
 
     #[inline]

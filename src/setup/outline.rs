@@ -6,7 +6,6 @@
 
 use super::Facing;
 use crate::vertex::Rect;
-use core::mem::swap;
 
 /// A corner on the subpixel grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +18,9 @@ pub(crate) struct Corner {
 pub(crate) trait Place: Copy + core::fmt::Debug {
     /// The first row whose centre is not above it, where its coordinates have `bits` subpixel bits.
     fn row(self, bits: u32) -> i32;
+
+    /// The same, whole pixels further to the right.
+    fn moved(self, columns: i32, bits: u32) -> Self;
 }
 
 impl Place for Corner {
@@ -26,14 +28,19 @@ impl Place for Corner {
     fn row(self, bits: u32) -> i32 {
         first_centre(self.y, bits)
     }
+
+    #[inline]
+    fn moved(self, columns: i32, bits: u32) -> Self {
+        Self { x: self.x + (columns << bits), ..self }
+    }
 }
 
-/// The corners of a triangle from the top down.
+/// The corners of a triangle: the highest, and those that its left and its right side go to from there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outline<C = Corner> {
-    pub(crate) corners: [C; 3],
-    /// The middle corner is right of the line between the other two.
-    pub(crate) turns_right: bool,
+    pub(crate) top: C,
+    pub(crate) left: C,
+    pub(crate) right: C,
 }
 
 /// The doubled area of the triangle `p q r` in square subpixels, positive where it is clockwise on the
@@ -70,25 +77,34 @@ pub(crate) const fn first_centre(v: i32, bits: u32) -> i32 {
     (v + ((1 << bits) / 2 - 1)) >> bits
 }
 
-impl<C: Copy> Outline<C> {
-    /// Corners in the order of their heights, of a triangle that is clockwise on the screen or not.
+impl<C: Place> Outline<C> {
+    /// The same, whole pixels further to the right.
     #[inline]
-    pub(crate) fn sorted(corners: [C; 3], clockwise: bool, height: impl Fn(&C) -> i32) -> Self {
-        let [mut top, mut middle, mut bottom] = corners;
-        let mut turns_right = clockwise;
-        if height(&middle) < height(&top) {
-            swap(&mut top, &mut middle);
-            turns_right = !turns_right;
+    pub(crate) fn moved(&self, columns: i32, bits: u32) -> Self {
+        let Self { top, left, right } = self;
+        Self {
+            top: top.moved(columns, bits),
+            left: left.moved(columns, bits),
+            right: right.moved(columns, bits),
         }
-        if height(&bottom) < height(&middle) {
-            swap(&mut middle, &mut bottom);
-            turns_right = !turns_right;
-            if height(&middle) < height(&top) {
-                swap(&mut top, &mut middle);
-                turns_right = !turns_right;
-            }
+    }
+}
+
+impl<C: Copy> Outline<C> {
+    /// Of a triangle that is clockwise on the screen or not, from corners of some height, down.
+    #[inline(always)]
+    pub(crate) fn from_top(corners: [C; 3], clockwise: bool, height: impl Fn(&C) -> i32) -> Self {
+        let [p, q, r] = corners;
+        let (q, r) = if clockwise { (q, r) } else { (r, q) };
+        // Turned, not sorted: the order around the triangle says what is left and right.
+        let [of_p, of_q, of_r] = [height(&p), height(&q), height(&r)];
+        if of_q < of_p && of_q <= of_r {
+            Self { top: q, right: r, left: p }
+        } else if of_r < of_p {
+            Self { top: r, right: p, left: q }
+        } else {
+            Self { top: p, right: q, left: r }
         }
-        Self { corners: [top, middle, bottom], turns_right }
     }
 }
 
@@ -96,27 +112,18 @@ impl Outline {
     /// From corners in subpixels, and the sign of their doubled area.
     #[inline]
     pub(crate) fn new(points: &[[i32; 2]; 3], clockwise: bool) -> Self {
-        Self::sorted(points.map(|[x, y]| Corner { x, y }), clockwise, |corner| corner.y)
-    }
-
-    /// The same, whole pixels further to the right.
-    #[inline]
-    pub(crate) fn moved(mut self, columns: i32, bits: u32) -> Self {
-        for corner in &mut self.corners {
-            corner.x += columns << bits;
-        }
-        self
+        Self::from_top(points.map(|[x, y]| Corner { x, y }), clockwise, |corner| corner.y)
     }
 
     /// The box of the pixel centres it may cover.
     #[inline]
     pub(crate) fn bounds(&self, bits: u32) -> Rect {
-        let [p, q, r] = self.corners;
+        let Self { top, left, right } = *self;
         Rect {
-            x0: first_centre(p.x.min(q.x).min(r.x), bits),
-            y0: p.row(bits),
-            x1: first_centre(p.x.max(q.x).max(r.x), bits),
-            y1: r.row(bits),
+            x0: first_centre(top.x.min(left.x).min(right.x), bits),
+            y0: top.row(bits),
+            x1: first_centre(top.x.max(left.x).max(right.x), bits),
+            y1: left.row(bits).max(right.row(bits)),
         }
     }
 }

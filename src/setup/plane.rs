@@ -16,16 +16,16 @@
 //! | `b`, a subpixel's part of both gradients | 30 and a sign |
 //!
 //! `v`'s floor is half a unit of `G`, `G`'s floor is one, the reciprocal is a part in 2^29.5 of at most 2^30 units: 3
-//! units of `2^t` in all. In a box below `2^(n + 1)` pixels `t` is `9 - n`, so a covered pixel is off by less than
-//! `2 2^(n + 1) 3 2^(9 - n)`, and `b`'s floor, a unit of `2^(t + 1)`: 2^13 units for boxes below 512 px, 2^15
-//! to the guard band's ends. `t` is 1 to 10: a steep function over a small triangle needs a large gradient, and a small
-//! one little precision. Where `e_i 2^k` does not fit, in a triangle whose length is some hundred times its width, `t` is one
-//! more, and the function off by twice as much: 2^14 units, and less than 2^15 to the guard band's ends, since what the
-//! reciprocal is off is in proportion to `v - v_0`, 2^3 units in all. Where it does not even so, there is no plane.
+//! units of `2^t` in all. In a box below `2^(n + 1)` pixels `t` is at most `10 - n`, so a covered pixel is off by less than
+//! `2 2^(n + 1) 3 2^(10 - n)`, and `b`'s floor, a unit of `2^(t + 1)`: 2^14 units for boxes below 512 px. For others `t` is at
+//! most 2, which is 2^15 to the guard band's ends and a little more for the floor; what the reciprocal is off is in proportion
+//! to `v - v_0`, 2^3 units in all. `t` is the least that `e_i 2^k` fits with, but not below 0: usually far less. Where it is
+//! more, in a triangle whose length is some hundred times its width, there is no plane.
 
 use super::doubled_area;
-use crate::math::{high, high_product, low, normalized, product, reciprocal, signed, unsigned};
-use crate::vertex::Rect;
+use crate::math::{
+    bits, high, high_product, low, normalized, product, reciprocal, signed, unsigned,
+};
 
 /// What turns differences over a triangle into gradients.
 #[derive(Clone, Copy, Debug)]
@@ -52,43 +52,36 @@ pub(crate) struct Plane {
     /// A pixel to the right.
     pub(crate) x: u32,
     /// A pixel down.
-    y: u32,
+    pub(crate) y: u32,
 }
 
 impl Slopes {
-    /// Of a triangle with these corners in subpixels, its doubled area, and its box in pixels; `None` where the area is
-    /// too small for its length.
+    /// Of a triangle with these corners in subpixels, and its doubled area; `None` where that is too small for its length.
     #[inline(always)]
-    pub(crate) fn new(
-        corners: &[[i32; 2]; 3],
-        area: i64,
-        bounds: Rect,
-        subpixel_bits: u32,
-    ) -> Option<Self> {
+    pub(crate) fn new(corners: &[[i32; 2]; 3], area: i64, subpixel_bits: u32) -> Option<Self> {
         debug_assert_eq!(area, doubled_area(corners), "the area is not the corners'");
         let [p, q, r] = corners;
-        let magnitude = area.unsigned_abs();
-        // The top 32 bits, and 32 + lz: the area takes 38 at most.
-        let (normal, zeros) = if high(magnitude) == 0 {
-            let (normal, zeros) = normalized(unsigned(low(area.abs())));
-            (normal, 32 + zeros)
+        // The top 32 bits, and lz, which is below 0 for areas of more: up to 38.
+        let (normal, zeros) = if i64::from(low(area)) == area {
+            let (normal, zeros) = normalized(low(area).unsigned_abs());
+            (normal, bits(zeros))
         } else {
+            let magnitude = area.unsigned_abs();
             let zeros = magnitude.leading_zeros();
-            (high(magnitude << zeros), zeros)
+            (high(magnitude << zeros), bits(zeros) - 32)
         };
         let (across, down) = ([r[1] - p[1], p[1] - q[1]], [p[0] - r[0], q[0] - p[0]]);
         let length = |v: i32| unsigned(v ^ v >> 31);
         let longest = length(across[0]) | length(across[1]) | length(down[0]) | length(down[1]);
         let (_, room) = normalized(longest | 1);
-        let size = unsigned(bounds.x1 - bounds.x0) | unsigned(bounds.y1 - bounds.y0);
-        let (_, zeros_of_size) = normalized(size);
-        let usual = (8 + zeros_of_size).saturating_sub(31) + 1;
-        // So that the longest is below 2^31.
-        let steep = usual.max((subpixel_bits + 4 + zeros).saturating_sub(32 + room));
-        if steep > usual + 1 {
+        // k with which the longest is below 2^31; t is not below 0.
+        let all = bits(subpixel_bits) + 3 + zeros;
+        let up = all.min(bits(room) - 1);
+        let steep = all - up;
+        // Of two sides each is below 2^(32 - room) subpixels, so the box is below twice that: 2^(n + 1) pixels.
+        if steep > (bits(room + subpixel_bits) - 22).max(2) {
             return None;
         }
-        let up = (subpixel_bits + 3 + zeros).saturating_sub(32 + steep);
         let inverse = signed(reciprocal(normal) >> 1);
         let half = 1 << (subpixel_bits - 1);
         let fraction = |v: i32| v & ((1 << subpixel_bits) - 1);
@@ -96,7 +89,7 @@ impl Slopes {
             across: across.map(|e| e << up),
             down: down.map(|e| e << up),
             inverse: if area < 0 { -inverse } else { inverse },
-            steep,
+            steep: unsigned(steep),
             back: [p[0], p[1]].map(|v| (half - fraction(v)) << (31 - subpixel_bits)),
             pixel: [p[0] >> subpixel_bits, p[1] >> subpixel_bits],
         })
@@ -156,7 +149,7 @@ mod tests {
         }
         let difference = |v: u32, u: u32| ((i64::from(v) - i64::from(u)) / 2) as i32;
         let differences = [difference(v[1], v[0]), difference(v[2], v[0])];
-        let plane = Slopes::new(&p, area, bounds, bits)?.plane(v[0], differences);
+        let plane = Slopes::new(&p, area, bits)?.plane(v[0], differences);
         let unit = f64::from(1 << bits);
         let at = |n: i32| (f64::from(n) + 0.5) * unit;
         let point = p.map(|p| p.map(f64::from));

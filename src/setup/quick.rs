@@ -25,17 +25,19 @@ use crate::vertex::{GUARD_BAND, HOMOGENEOUS_BITS, Quick, QuickPosition, Rect, Vi
 impl<const BITS: u32> Tier for Quick<BITS> {
     const SUBPIXEL_BITS: u32 = BITS;
 
+    const PROJECTS: bool = true;
+
     #[inline]
-    fn projected([p, q, r]: [&QuickPosition<BITS>; 3]) -> Option<[[i32; 2]; 3]> {
-        let all = p.projected && q.projected && r.projected;
-        all.then_some([[p.x, p.y], [q.x, q.y], [r.x, r.y]])
+    fn corners(vertices: [&QuickPosition<BITS>; 3]) -> [[i32; 2]; 3] {
+        vertices.map(|v| [v.x, v.y])
     }
 
     #[inline(never)]
     fn set_up(vertices: [&QuickPosition<BITS>; 3], viewport: &Viewport) -> Option<Setup> {
-        match Self::projected(vertices) {
-            Some(corners) => projected::<BITS>(&corners),
-            None => mixed_setup(vertices, viewport),
+        if vertices.iter().all(|v| v.projected) {
+            projected::<BITS>(&Self::corners(vertices))
+        } else {
+            mixed_setup(vertices, viewport)
         }
     }
 }
@@ -150,7 +152,7 @@ mod tests {
         let viewport = Viewport::new(240, 320).unwrap();
         let v = snap::<4>([[-900, 310, 1000], [2000, 1500, 2700], [-77, -3000, 4000]], &viewport);
         let points = [0, 1, 2].map(|i: usize| v[i].in_pixels(&viewport));
-        let corners = Quick::projected([&v[0], &v[1], &v[2]]).unwrap();
+        let corners = Quick::corners([&v[0], &v[1], &v[2]]);
         let (short, wide) = (projected::<4>(&corners).unwrap(), mixed(&points));
         for (x, y) in [(0, 0), (17, 200), (239, 319)] {
             let at = |e: &[i64; 3]| 2 * (e[0] * i64::from(x) + e[1] * i64::from(y)) + e[2];

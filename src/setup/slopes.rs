@@ -62,7 +62,6 @@ impl Slopes {
         }
         let scaled = |e: i32| (e << 1) >> finer;
         let inverse = signed(mantissa >> 1);
-        let (left, top) = viewport.origin;
         Some(Self {
             across: [gradient(across[0], q.w, height), gradient(across[1], r.w, height)]
                 .map(scaled),
@@ -70,7 +69,7 @@ impl Slopes {
             inverse,
             steep: unsigned(shift + finer),
             back: back(p, viewport),
-            pixel: [i32::from(p.column) + left, i32::from(p.row) + top],
+            pixel: [i32::from(p.column), i32::from(p.row)],
         })
     }
 }

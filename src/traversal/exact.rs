@@ -43,8 +43,6 @@ pub(crate) struct Stepped {
 impl Side for Stepped {
     type Corner = Anchored;
 
-    const WINDOWED: bool = true;
-
     #[inline(always)]
     fn new(upper: Anchored, lower: Anchored, row: i32, _: u32) -> Self {
         let mut side = Self::between(&upper, &lower);
@@ -96,7 +94,7 @@ impl Stepped {
 mod tests {
     use super::*;
     use crate::setup::{Facing, Tier, determinant, outline};
-    use crate::traversal::Halves;
+    use crate::traversal::Rows;
     use crate::vertex::{ClipVertex, Exact, Rect, Snap, Viewport};
     use std::vec::Vec;
 
@@ -130,17 +128,12 @@ mod tests {
         };
         let mut any = false;
         let mut seen = bounds.y0;
-        let mut halves = Halves::<Stepped>::new(&outline, bounds, 0);
-        while let Some((y, mut half)) = halves.next() {
-            assert_eq!(y, seen);
-            for (x0, x1) in &mut half {
-                let span: Vec<i32> = (x0..x1).collect();
-                assert_eq!(span, covered(seen), "{v:?}, row {seen} of {bounds:?}");
-                assert!(span.iter().all(|x| (whole.x0..whole.x1).contains(x)));
-                any |= !span.is_empty();
-                seen += 1;
-            }
-            halves.resume(half);
+        for (x0, x1) in Rows::<Stepped>::new(&outline, bounds, 0) {
+            let span: Vec<i32> = (x0..x1).collect();
+            assert_eq!(span, covered(seen), "{v:?}, row {seen} of {bounds:?}");
+            assert!(span.iter().all(|x| (whole.x0..whole.x1).contains(x)));
+            any |= !span.is_empty();
+            seen += 1;
         }
         assert_eq!(seen, bounds.y1);
         if y0 <= whole.y0 && y1 >= whole.y1 {

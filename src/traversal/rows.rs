@@ -6,25 +6,67 @@
 //! rule, ties included. Rows whose centre is on the upper corner's height belong to the edge, those
 //! on the lower one's do not.
 
-use super::side::Side;
+use super::side::{Side, SmallSide};
 use crate::setup::{Outline, Place};
 use crate::vertex::Rect;
 
-/// A run of rows between the same two edges: its spans from the top, some of them empty.
+/// The rows of a triangle from the top: their spans, some of them empty.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Half<S> {
+pub(crate) struct Rows<'a, S: Side> {
+    outline: &'a Outline<S::Corner>,
+    bits: u32,
     left: S,
     right: S,
+    /// Rows that are left until the row `next`.
     rows: i32,
+    /// Where the next corner is, or the end.
+    next: i32,
+    end: i32,
 }
 
-impl<S: Side> Iterator for Half<S> {
+impl<'a, S: Side> Rows<'a, S> {
+    /// The rows `bounds.y0 .. bounds.y1` of a triangle, which has them all.
+    #[inline(always)]
+    pub(crate) fn new(outline: &'a Outline<S::Corner>, bounds: Rect, bits: u32) -> Self {
+        let Outline { top, left, right } = *outline;
+        let middle = left.row(bits).min(right.row(bits)).max(bounds.y0).min(bounds.y1);
+        Self {
+            outline,
+            bits,
+            left: S::new(top, left, bounds.y0, bits),
+            right: S::new(top, right, bounds.y0, bits),
+            rows: middle - bounds.y0,
+            next: middle,
+            end: bounds.y1,
+        }
+    }
+
+    /// At the corner that is not the lowest: from there an edge goes to the one that is. `None` where there are no rows
+    /// below.
+    #[inline(always)]
+    fn turn(&mut self) -> Option<()> {
+        let row = self.next;
+        if row >= self.end {
+            return None;
+        }
+        (self.rows, self.next) = (self.end - row, self.end);
+        let Outline { left, right, .. } = *self.outline;
+        if left.row(self.bits) < right.row(self.bits) {
+            self.left = S::new(left, right, row, self.bits);
+        } else {
+            self.right = S::new(right, left, row, self.bits);
+        }
+        Some(())
+    }
+}
+
+impl<S: Side> Iterator for Rows<'_, S> {
     type Item = (i32, i32);
 
     #[inline(always)]
     fn next(&mut self) -> Option<(i32, i32)> {
         if self.rows <= 0 {
-            return None;
+            self.turn()?;
         }
         self.rows -= 1;
         let span = (self.left.x(), self.right.x());
@@ -34,57 +76,66 @@ impl<S: Side> Iterator for Half<S> {
     }
 }
 
-/// The halves of a triangle, above and below its middle corner: [`next`](Self::next) hands out one, and
-/// [`resume`](Self::resume) takes it back when all its rows are drawn.
+/// The rows of a small triangle, with all three edges from the start: in registers, or made while there are some.
 ///
-/// A loop over them rather than a call for each, so that what is done with the rows stands once in the code, and
-/// the edges stay in registers.
+/// Its spans are runs of pixels in a target of rows of some width, counted from the box's first one on: from a row to the next
+/// an edge goes that width further, and no row needs a place of its own.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Halves<'a, S: Side> {
-    outline: &'a Outline<S::Corner>,
-    bits: u32,
-    long: S,
-    y: i32,
-    end: i32,
+pub(crate) struct ShortRows<S> {
+    left: S,
+    right: S,
+    /// The edge between the two lower corners.
+    lower: S,
+    lower_is_left: bool,
+    /// Rows above those corners, and below, until they are there.
+    rows: i32,
+    below: i32,
 }
 
-impl<'a, S: Side> Halves<'a, S> {
-    /// The rows `bounds.y0 .. bounds.y1` of a triangle, which has them all, and at least one.
+impl<S: SmallSide> ShortRows<S> {
+    /// All rows of a triangle, of which this is the box, in a target of at most [`WIDEST`](super::WIDEST).
     #[inline(always)]
-    pub(crate) fn new(outline: &'a Outline<S::Corner>, bounds: Rect, bits: u32) -> Self {
-        let [top, _, bottom] = outline.corners;
-        let long = S::new(top, bottom, bounds.y0, bits);
-        Self { outline, bits, long, y: bounds.y0, end: bounds.y1 }
-    }
-
-    /// The next half, and its first row.
-    #[inline(always)]
-    pub(crate) fn next(&mut self) -> Option<(i32, Half<S>)> {
-        let y = self.y;
-        if y >= self.end {
-            return None;
+    pub(crate) fn new(outline: &Outline, bounds: Rect, bits: u32, width: i32) -> Self {
+        let Outline { top, left, right } = *outline;
+        let lower_is_left = left.row(bits) < right.row(bits);
+        let (upper, lower) = if lower_is_left { (left, right) } else { (right, left) };
+        let rows = upper.row(bits) - bounds.y0;
+        Self {
+            left: S::new(top, left, bits, width),
+            right: S::new(top, right, bits, width),
+            lower: S::new(upper, lower, bits, width).further(rows * width),
+            lower_is_left,
+            rows,
+            below: bounds.y1 - bounds.y0 - rows,
         }
-        let Outline { corners: [top, middle, bottom], turns_right } = *self.outline;
-        let (upper, lower) =
-            if y < middle.row(self.bits) { (top, middle) } else { (middle, bottom) };
-        self.y = lower.row(self.bits).min(self.end);
-        let short = S::new(upper, lower, y, self.bits);
-        let (left, right) = if turns_right { (self.long, short) } else { (short, self.long) };
-        Some((y, Half { left, right, rows: self.y - y }))
     }
+}
 
-    /// Takes a half back.
+impl<S: SmallSide> Iterator for ShortRows<S> {
+    type Item = (i32, i32);
+
     #[inline(always)]
-    pub(crate) fn resume(&mut self, half: Half<S>) {
-        self.long = if self.outline.turns_right { half.left } else { half.right };
+    fn next(&mut self) -> Option<(i32, i32)> {
+        if self.rows <= 0 {
+            if self.below <= 0 {
+                return None;
+            }
+            (self.rows, self.below) = (self.below, 0);
+            *(if self.lower_is_left { &mut self.left } else { &mut self.right }) = self.lower;
+        }
+        self.rows -= 1;
+        let run = (self.left.pixel(), self.right.pixel());
+        self.left.step();
+        self.right.step();
+        Some(run)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::{Corner, doubled_area};
-    use crate::traversal::side::{Digital, Line, Short};
+    use crate::setup::doubled_area;
+    use crate::traversal::side::{Digital, Line, Short, WIDEST, Walked, is_small};
     use std::vec::Vec;
 
     /// What edge functions in 64 bits cover of a row, from column -1300 to 1300.
@@ -104,17 +155,6 @@ mod tests {
 
     /// All rows of a triangle from `y0` to `y1` against [`covered`].
     fn follows(p: [[i32; 2]; 3], bits: u32, y0: i32, y1: i32) {
-        follows_by::<Line>(p, bits, y0, y1);
-        let bounds = Outline::new(&p, true).bounds(bits);
-        if Short::fits(bounds) {
-            // Its columns are counted from the box's.
-            let left = bounds.x0 << bits;
-            follows_by::<Short>(p.map(|[x, y]| [x - left, y]), bits, y0, y1);
-        }
-        follows_by::<Digital>(p, bits, y0, y1);
-    }
-
-    fn follows_by<S: Side<Corner = Corner>>(p: [[i32; 2]; 3], bits: u32, y0: i32, y1: i32) {
         let area = doubled_area(&p);
         if area == 0 {
             return;
@@ -122,23 +162,39 @@ mod tests {
         let outline = Outline::new(&p, area > 0);
         let whole = outline.bounds(bits);
         let bounds = Rect { y0: whole.y0.max(y0), y1: whole.y1.min(y1), ..whole };
-        let mut seen = bounds.y0;
-        let check = |row: i32, span: Vec<i32>| {
-            let exact = covered(&p, area.signum(), row, bits);
-            assert_eq!(span, exact, "{p:?}, {bits} bits, row {row} of {bounds:?}");
-            assert!(span.iter().all(|x| (whole.x0..whole.x1).contains(x)));
-        };
-        if !bounds.is_empty() {
-            let mut halves = Halves::<S>::new(&outline, bounds, bits);
-            while let Some((y, mut half)) = halves.next() {
-                assert_eq!(y, seen);
-                for (x0, x1) in &mut half {
-                    check(seen, (x0..x1).collect());
-                    seen += 1;
-                }
-                halves.resume(half);
+        let check = |rows: &mut dyn Iterator<Item = (i32, i32)>, bounds: Rect| {
+            let mut seen = bounds.y0;
+            for (x0, x1) in rows {
+                let span: Vec<i32> = (x0..x1).collect();
+                let exact = covered(&p, area.signum(), seen, bits);
+                assert_eq!(span, exact, "{p:?}, {bits} bits, row {seen} of {bounds:?}");
+                assert!(span.iter().all(|x| (whole.x0..whole.x1).contains(x)));
+                seen += 1;
             }
             assert_eq!(seen, bounds.y1);
+        };
+        if !bounds.is_empty() {
+            check(&mut Rows::<Line>::new(&outline, bounds, bits), bounds);
+            check(&mut Rows::<Digital>::new(&outline, bounds, bits), bounds);
+        }
+        if !whole.is_empty() && is_small(whole) {
+            let moved = outline.moved(-whole.x0, bits);
+            let mut first = 0;
+            let mut columns = |(i0, i1)| {
+                let at = whole.x0 - first;
+                first += WIDEST;
+                (i0 + at, i1 + at)
+            };
+            let rows = ShortRows::<Short>::new(&moved, whole, bits, WIDEST);
+            check(&mut rows.map(&mut columns), whole);
+            first = 0;
+            let mut columns = |(i0, i1)| {
+                let at = whole.x0 - first;
+                first += WIDEST;
+                (i0 + at, i1 + at)
+            };
+            let rows = ShortRows::<Walked>::new(&moved, whole, bits, WIDEST);
+            check(&mut rows.map(&mut columns), whole);
         }
         if y0 <= whole.y0 && y1 >= whole.y1 {
             assert!(covered(&p, area.signum(), whole.y0 - 1, bits).is_empty());

@@ -31,9 +31,6 @@ pub(crate) trait Side: Copy + core::fmt::Debug {
     /// What it goes between.
     type Corner: Place;
 
-    /// Whether a triangle's rows may reach out of the window they are drawn in.
-    const WINDOWED: bool;
-
     /// The edge from `upper` to `lower` in subpixels of `bits` bits on row `row`, which it has.
     fn new(upper: Self::Corner, lower: Self::Corner, row: i32, bits: u32) -> Self;
 
@@ -52,20 +49,17 @@ struct Start {
     dy: i32,
     /// The edge on the corner's first row is at `column - e / dy`, counted from centres.
     e: i32,
-    /// How many rows are above the one asked for.
-    rows: i32,
 }
 
 impl Start {
     #[inline]
-    fn new(upper: Corner, lower: Corner, row: i32, bits: u32) -> Self {
+    fn new(upper: Corner, lower: Corner, bits: u32) -> Self {
         let (dx, dy) = (lower.x - upper.x, lower.y - upper.y);
         let half = (1 << bits) / 2;
-        let first = upper.row(bits);
-        let f = (first << bits) + half - upper.y;
+        let f = (upper.row(bits) << bits) + half - upper.y;
         let fx = upper.x & ((1 << bits) - 1);
         let e = ((half - fx) * dy - dx * f) >> bits;
-        Self { column: upper.x >> bits, dx, dy, e, rows: row - first }
+        Self { column: upper.x >> bits, dx, dy, e }
     }
 }
 
@@ -113,11 +107,9 @@ impl Line {
 impl Side for Line {
     type Corner = Corner;
 
-    const WINDOWED: bool = true;
-
     #[inline(always)]
     fn new(upper: Corner, lower: Corner, row: i32, bits: u32) -> Self {
-        let Start { column, dx, dy, e, rows } = Start::new(upper, lower, row, bits);
+        let Start { column, dx, dy, e } = Start::new(upper, lower, bits);
         let inverse = u32::MAX.checked_div(dy.unsigned_abs()).unwrap_or(0);
         let short = if bits > 4 { 24 << bits } else { 192 << bits };
         let [e, slope] = if dy < short && unsigned(dx + short) < unsigned(2 * short) {
@@ -126,6 +118,7 @@ impl Side for Line {
             Self::long(e, dx, dy, inverse)
         };
         let mut at = (i64::from(column + 1) << 32) - e - i64::from(inverse >> 1);
+        let rows = row - upper.row(bits);
         if rows > 0 {
             at += slope * i64::from(rows);
         }
@@ -144,61 +137,150 @@ impl Side for Line {
     }
 }
 
-/// An edge of a small triangle as a sum in Q26 of a pixel, from a column near its left end: one addition of 32
-/// bits a row. As [`Line`], with `R / 2` in Q31, so that signed products do:
+/// An edge of a small triangle as a sum in Q18 of a pixel, 14 bits of whole ones: one addition of 32 bits a row, two divisions
+/// an edge.
 ///
-/// | `dy`, `\|dx\|` below | off by, a `v` | rows | cut to Q26 | sum off by | limit |
-/// | --- | --- | --- | --- | --- | --- |
-/// | 24 px (`S = 8`) | 2 | 25 | 26 2^6 | 2^18.35 | 2^18.42 |
-/// | 24 px (`S = 4`) | 2 | 25 | 26 2^6 | 2^14.4 | 2^22.4 |
+/// As [`Line`], it begins half a `1 / dy` below the last column that it may have, and its floor is right while it is off by less
+/// than that, `2^17 / dy` units. Both quotients are off by less than one: by the `n`th row the sum is off by less than `n`.
+///
+/// | box below | `\|dx\|`, `dy` below | `2 \|e\| + 1`, below | off by | limit |
+/// | --- | --- | --- | --- | --- |
+/// | 21 px (`S = 8`) | 5376 | 2^14 | 21 | 24.4 |
+/// | 21 px (`S = 4`) | 336 | 2^10 | 21 | 390 |
+///
+/// A pixel is at most `20 WIDEST + 20`, below 2^14.
+#[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Short {
-    at: i32,
-    slope: i32,
+    at: u32,
+    step: u32,
 }
 
+/// An edge of a small triangle, followed from its first row.
+///
+/// Its columns are a target's pixels, a row after the other, from the left side that its corners are counted from.
+pub(crate) trait SmallSide: Copy + core::fmt::Debug {
+    /// The edge from `upper` to `lower`, in subpixels of `bits` bits, on its first row, in a target of that width.
+    fn new(upper: Corner, lower: Corner, bits: u32, width: i32) -> Self;
+
+    /// The edge some pixels further on.
+    fn further(self, pixels: i32) -> Self;
+
+    /// The first pixel of the row whose centre is not left of the edge.
+    fn pixel(&mut self) -> i32;
+
+    /// The next row.
+    fn step(&mut self);
+}
+
+/// The longest side of a small triangle's box, in pixels.
+pub(crate) const SMALL: i32 = 20;
+
+/// Pixels of a target's row that a small triangle is drawn in, at the most.
+pub(crate) const WIDEST: i32 = 816;
+
+/// Whether a triangle of which this is the box is small: a side is less than a pixel longer than the box.
+#[inline]
+pub(crate) const fn is_small(bounds: Rect) -> bool {
+    bounds.x1 - bounds.x0 <= SMALL && bounds.y1 - bounds.y0 <= SMALL
+}
+
+#[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
 impl Short {
     /// Fraction bits.
-    const FRACTION: u32 = 26;
-
-    /// Whether a triangle of which this is the box is small enough: a side is less than a pixel longer than the
-    /// box. It has to be followed from its first row, and from the box's first column as 0.
-    #[inline]
-    pub(crate) const fn fits(bounds: Rect) -> bool {
-        bounds.x1 - bounds.x0 < 23 && bounds.y1 - bounds.y0 < 23
-    }
+    const FRACTION: u32 = 18;
 }
 
-impl Side for Short {
-    type Corner = Corner;
-
-    const WINDOWED: bool = false;
-
+#[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
+impl SmallSide for Short {
     #[inline(always)]
-    fn new(upper: Corner, lower: Corner, row: i32, bits: u32) -> Self {
-        let Start { column, dx, dy, e, rows } = Start::new(upper, lower, row, bits);
-        let inverse = signed(u32::MAX.checked_div(unsigned(dy)).unwrap_or(0) >> 1);
-        let product = |v: i32| low((i64::from(v) * i64::from(inverse)) >> (31 - Self::FRACTION));
-        let at = ((column + 1) << Self::FRACTION) - product(e) - (inverse >> (32 - Self::FRACTION));
-        let slope = product(dx);
-        Self { at: at.wrapping_add(slope.wrapping_mul(rows)), slope }
+    fn new(upper: Corner, lower: Corner, bits: u32, width: i32) -> Self {
+        let Start { column, dx, dy, e } = Start::new(upper, lower, bits);
+        // An edge without rows may be anything; and a division by 1 or more takes no test.
+        let dy = dy.max(1);
+        let back = ((2 * e + 1) << (Self::FRACTION - 1)) / dy;
+        let slope = (dx << Self::FRACTION) / dy;
+        Self {
+            at: unsigned((column + 1) << Self::FRACTION).wrapping_sub(unsigned(back)),
+            step: unsigned(slope).wrapping_add(unsigned(width) << Self::FRACTION),
+        }
     }
 
     #[inline]
-    fn x(&mut self) -> i32 {
-        self.at >> Self::FRACTION
+    fn further(self, pixels: i32) -> Self {
+        Self { at: self.at.wrapping_add(unsigned(pixels) << Self::FRACTION), ..self }
+    }
+
+    #[inline]
+    fn pixel(&mut self) -> i32 {
+        signed(self.at >> Self::FRACTION)
     }
 
     #[inline]
     fn step(&mut self) {
         // One row's edge may have any slope, and is not looked at after it.
-        self.at = self.at.wrapping_add(self.slope);
+        self.at = self.at.wrapping_add(self.step);
+    }
+}
+
+#[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
+const _: () = assert!(
+    SMALL * WIDEST + SMALL < 1 << (32 - Short::FRACTION),
+    "a pixel of a box is beyond 14 bits"
+);
+
+/// An edge of a small triangle by a remainder, walked from column to column: no division, and no product but two.
+///
+/// Between rows it goes at most from one side of the box to the other, so a walk is bounded by that.
+#[cfg(any(test, all(target_arch = "arm", not(target_has_atomic = "32"))))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Walked {
+    pixel: i32,
+    /// How far left of that pixel's centre the edge is, in pixels / `dy`: `0 <= ahead < dy` once the row is walked.
+    ahead: i32,
+    dx: i32,
+    dy: i32,
+    width: i32,
+}
+
+#[cfg(any(test, all(target_arch = "arm", not(target_has_atomic = "32"))))]
+impl SmallSide for Walked {
+    #[inline]
+    fn new(upper: Corner, lower: Corner, bits: u32, width: i32) -> Self {
+        let Start { column, dx, dy, e } = Start::new(upper, lower, bits);
+        Self { pixel: column, ahead: e, dx, dy, width }
+    }
+
+    #[inline]
+    fn further(self, pixels: i32) -> Self {
+        Self { pixel: self.pixel + pixels, ..self }
+    }
+
+    #[inline(always)]
+    fn pixel(&mut self) -> i32 {
+        while self.ahead < 0 {
+            self.ahead += self.dy;
+            self.pixel += 1;
+            core::hint::black_box(());
+        }
+        while self.ahead >= self.dy {
+            self.ahead -= self.dy;
+            self.pixel -= 1;
+            core::hint::black_box(());
+        }
+        self.pixel
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        self.ahead -= self.dx;
+        self.pixel += self.width;
     }
 }
 
 /// An edge by whole pixels and a remainder, without a division where there is no instruction for one.
 #[cfg(any(test, all(target_arch = "arm", not(target_has_atomic = "32"))))]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Digital {
     x: i32,
     /// How far left of that centre the edge is, in pixels / `height`: `0 <= ahead < height`.
@@ -224,14 +306,16 @@ impl Digital {
 impl Side for Digital {
     type Corner = Corner;
 
-    const WINDOWED: bool = true;
-
     #[inline]
     fn new(upper: Corner, lower: Corner, row: i32, bits: u32) -> Self {
-        let Start { column, dx, dy, e, rows } = Start::new(upper, lower, row, bits);
+        if lower.row(bits) <= row {
+            return Self::default();
+        }
+        let Start { column, dx, dy, e } = Start::new(upper, lower, bits);
         let (back, ahead) = divide(e, dy);
         let (whole, rest) = divide(dx, dy);
         let mut side = Self { x: column - back, ahead, whole, rest, height: dy };
+        let rows = row - upper.row(bits);
         if rows > 0 {
             side.skip(rows);
         }
@@ -361,6 +445,45 @@ mod tests {
             }
             follows(upper, lower, bits as u32, 0);
             follows(upper, lower, bits as u32, below(1536));
+        }
+    }
+
+    /// Small edges of all lengths, half of them as long as they may be, on every row.
+    #[test]
+    fn short_edges_are_exact() {
+        let mut state = 1u64;
+        let mut below = move |n: i32| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            ((state >> 33) % u64::from(n.unsigned_abs())) as i32
+        };
+        for i in 0..100_000 {
+            let bits = if i % 2 == 0 { 4 } else { 8 };
+            let end = 21 << bits;
+            let mut length = |i: i32| end - 1 - below(if i % 2 == 0 { end } else { 40 });
+            let (dx, dy) = (length(i / 2) * [1, -1][i as usize / 8 % 2], length(i / 4));
+            let mut upper = [0; 2].map(|_| below(512 << bits));
+            if i % 5 == 0 {
+                // Many centres on the edge.
+                upper = upper.map(|v| (v & !((1 << bits) - 1)) + (1 << bits) / 2);
+            }
+            let [x, y] = upper;
+            let [upper, lower] = [Corner { x, y }, Corner { x: x + dx, y: y + dy }];
+            let left = upper.x.min(lower.x) >> bits;
+            let [from, to] = [upper, lower].map(|corner| corner.moved(-left, bits));
+            let mut side = Short::new(from, to, bits, 800);
+            let mut walked = Walked::new(from, to, bits, 800);
+            for (n, row) in (upper.row(bits)..lower.row(bits)).enumerate() {
+                let half = (1 << bits) / 2;
+                let f = i64::from((row << bits) + half - y);
+                let n_half = i64::from(x - half) * i64::from(dy) + i64::from(dx) * f;
+                let exact = -(-n_half).div_euclid(i64::from(dy) << bits);
+                for pixel in [side.pixel(), walked.pixel()] {
+                    let column = pixel - 800 * n as i32 + left;
+                    assert_eq!(i64::from(column), exact, "{upper:?} {lower:?}, row {row}");
+                }
+                side.step();
+                walked.step();
+            }
         }
     }
 

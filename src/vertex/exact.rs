@@ -107,6 +107,11 @@ impl Position for ExactPosition {
     }
 
     #[inline]
+    fn is_projected(&self) -> bool {
+        false
+    }
+
+    #[inline]
     fn scaled_w(&self) -> i32 {
         self.w
     }

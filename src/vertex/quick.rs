@@ -271,6 +271,11 @@ impl<const BITS: u32> Position for QuickPosition<BITS> {
     }
 
     #[inline]
+    fn is_projected(&self) -> bool {
+        self.projected
+    }
+
+    #[inline]
     fn scaled_w(&self) -> i32 {
         if self.projected { self.w / 2 } else { self.w }
     }

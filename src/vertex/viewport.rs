@@ -134,12 +134,13 @@ impl Viewport {
         I16F16::from_bits((self.width << 16) / self.height)
     }
 
-    /// The part of the scissor that a `width x height` buffer holds, in the buffer's pixels.
+    /// The part of the scissor that a `width x height` buffer holds, in the viewport's pixels.
     pub(crate) fn window(&self, width: u32, height: u32) -> Rect {
         // An origin moves a side by at most 2^15; beyond 2^30 a target is as good as endless.
         let side = |v: u32| i32::try_from(v).unwrap_or(i32::MAX).min(1 << 30);
         let (x, y) = self.origin;
-        self.scissor.moved(x, y).intersect(Rect { x0: 0, y0: 0, x1: side(width), y1: side(height) })
+        let buffer = Rect { x0: 0, y0: 0, x1: side(width), y1: side(height) };
+        self.scissor.intersect(buffer.moved(-x, -y))
     }
 }
 
@@ -188,8 +189,8 @@ mod tests {
     #[test]
     fn a_band_sees_its_rows_only() {
         let band = Viewport::new(240, 240).unwrap().with_origin(0, -60);
-        assert_eq!(band.window(240, 20), Rect { x0: 0, y0: 0, x1: 240, y1: 20 });
-        assert_eq!(band.window(100, 240), Rect { x0: 0, y0: 0, x1: 100, y1: 180 });
+        assert_eq!(band.window(240, 20), Rect { x0: 0, y0: 60, x1: 240, y1: 80 });
+        assert_eq!(band.window(100, 240), Rect { x0: 0, y0: 60, x1: 100, y1: 240 });
         let off = band.with_scissor(Rect { x0: -9, y0: 0, x1: 999, y1: 60 });
         assert!(off.window(240, 20).is_empty());
         let far = Rect { x0: i32::MAX, y0: i32::MIN, x1: i32::MIN, y1: i32::MAX };
