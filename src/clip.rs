@@ -16,9 +16,10 @@
 //! `p_i` is the vertex that came in, before it was snapped; but the hither plane looks at the snapped
 //! `w`, which is what `1 / w` is interpolated from. On the exact tier's grid both are the same.
 
-use crate::math::{Scale, Signed, align, combine};
+use crate::math::{Scale, Signed, align, wide_product};
 use crate::setup::Setup;
-use crate::vertex::{ClipVertex, Outside, Position, ScaleOf, Snap, Snapped, Vertex};
+use crate::vertex::{ClipVertex, Position, ScaleOf, Snap, Snapped, Vertex};
+use core::hint::black_box;
 use fixed::types::I16F16;
 
 /// What is kept along `w`: a type, so that a scene without a hither plane has no code for one.
@@ -141,19 +142,27 @@ impl Plane {
     }
 }
 
-/// A linear function of the pixel, `a X + b Y + c >= 0` inside.
+/// A linear function of the pixel that is 0 or more inside: what a pixel right and a pixel down add, and its value at
+/// the pixel it was asked for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfPlane<I> {
     pub(crate) a: I,
     pub(crate) b: I,
-    pub(crate) c: I,
+    pub(crate) value: I,
 }
 
-/// The edge function of a plane with values `values[i] = k_i n(p_i)`, over an oriented setup.
-fn half_plane(setup: &Setup, values: [Signed; 3]) -> HalfPlane<i128> {
-    let (values, _) = align(values);
-    let sum = |edges: [i64; 3]| combine(values, edges);
-    HalfPlane { a: sum(setup.a) << setup.step, b: sum(setup.b) << setup.step, c: sum(setup.c) }
+/// The edge function of a plane with values `values[i] = k_i n(p_i)`, over an oriented setup, from a pixel on.
+#[inline(never)]
+fn half_plane(setup: &Setup, values: &[Signed; 3], x: i32, y: i32) -> HalfPlane<i128> {
+    let (values, _) = align(*values);
+    let mut sum = HalfPlane { a: 0, b: 0, value: 0 };
+    for (value, edge) in values.into_iter().zip(&setup.edges) {
+        sum.a += wide_product(value, edge.a);
+        sum.b += wide_product(value, edge.b);
+        sum.value += wide_product(value, edge.at(x, y));
+        black_box(());
+    }
+    sum
 }
 
 /// `k (w - h)` of a snapped vertex.
@@ -181,40 +190,39 @@ fn above_hither<P: Position>(position: &P, hither: Hither) -> Signed {
     }
 }
 
-/// The edge functions of the planes that cut a triangle: at most one a plane.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ClipEdges<const P: usize> {
-    pub(crate) hither: Option<HalfPlane<i128>>,
-    pub(crate) planes: [Option<HalfPlane<i128>>; P],
+/// The edge function of the hither plane, from a pixel on.
+#[inline(never)]
+pub(crate) fn hither_edge<T: Snap, const N: usize, const P: usize>(
+    setup: &Setup,
+    vertices: [&Vertex<T, N, P>; 3],
+    hither: Hither,
+    (x, y): (i32, i32),
+) -> HalfPlane<i128> {
+    let mut values = [Signed::of(0); 3];
+    for (value, vertex) in values.iter_mut().zip(vertices) {
+        *value = above_hither(&vertex.position, hither);
+        black_box(());
+    }
+    half_plane(setup, &values, x, y)
 }
 
-impl<const P: usize> ClipEdges<P> {
-    /// For each plane that some vertex is outside of (a bit of `outside`), its edge function.
-    #[inline]
-    pub(crate) fn new<T: Snap, const N: usize>(
-        setup: &Setup,
-        vertices: [&Vertex<T, N, P>; 3],
-        hither: Option<Hither>,
-        outside: Outside,
-    ) -> Self {
-        let mut edges = Self { hither: None, planes: [None; P] };
-        if let Some(hither) = hither.filter(|_| outside.0 & Outside::HITHER != 0) {
-            let values = vertices.map(|v| above_hither(&v.position, hither));
-            edges.hither = Some(half_plane(setup, values));
-        }
-        for (i, edge) in edges.planes.iter_mut().enumerate() {
-            if outside.0 & (Outside::FIRST_PLANE << i) != 0 {
-                let values = vertices.map(|v| {
-                    let ScaleOf(k) = v.position.scale();
-                    let distance = v.distances.get(i).map_or(0, |distance| distance.get());
-                    let raw = Scale::power_of_two(i32::from(v.shift));
-                    Signed::of(distance).times(k).times(raw)
-                });
-                *edge = Some(half_plane(setup, values));
-            }
-        }
-        edges
+/// The edge function of clip plane `i`, from a pixel on.
+#[inline(never)]
+pub(crate) fn plane_edge<T: Snap, const N: usize, const P: usize>(
+    setup: &Setup,
+    vertices: [&Vertex<T, N, P>; 3],
+    i: usize,
+    (x, y): (i32, i32),
+) -> HalfPlane<i128> {
+    let mut values = [Signed::of(0); 3];
+    for (value, vertex) in values.iter_mut().zip(vertices) {
+        let ScaleOf(k) = vertex.position.scale();
+        let distance = vertex.distances.get(i).map_or(0, |distance| distance.get());
+        let raw = Scale::power_of_two(i32::from(vertex.shift));
+        *value = Signed::of(distance).times(k).times(raw);
+        black_box(());
     }
+    half_plane(setup, &values, x, y)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ mod shape;
 
 pub use frame::{DepthFrame, DepthSize, DisplayFrame, Frame};
 
-use crate::clip::{ClipEdges, Hither};
+use crate::clip::Hither;
 use crate::depth::{DepthPlane, DepthTest};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
@@ -405,8 +405,7 @@ where
         F: Fragment<C::Color, N>,
         W: Interpolates<N>,
     {
-        let edges = ClipEdges::new(setup, vertices, self.hither(), outside);
-        let mut clip = ClipWalk::new(&edges, bounds);
+        let mut clip = ClipWalk::new(setup, bounds, vertices, self.hither(), outside);
         self.draw_part(setup, bounds, Some(&mut clip), shading);
     }
 

@@ -4,6 +4,8 @@
 //! Everything is integer and the same on every instruction set, so a picture does not depend on the
 //! chip that drew it.
 
+use core::hint::black_box;
+
 /// `v / 2^n`, rounded to nearest, halves towards plus infinity. `n` is 0 to 62.
 #[inline]
 pub(crate) const fn shr_round(v: i64, n: u32) -> i64 {
@@ -360,12 +362,20 @@ pub(crate) fn align(values: [Signed; 3]) -> ([i64; 3], i32) {
     (aligned, top - 30)
 }
 
-/// The linear combination of three edge functions, or of their steps. Weights of at most 62 bits and
-/// edges of at most 62 make at most 126.
-#[inline]
-pub(crate) fn combine([u, v, w]: [i64; 3], [x, y, z]: [i64; 3]) -> i128 {
-    let product = |u: i64, x: i64| i128::from(u) * i128::from(x);
-    product(u, x) + product(v, y) + product(w, z)
+/// `u v`. Not inlined: few triangles need it.
+#[inline(never)]
+pub(crate) fn wide_product(u: i64, v: i64) -> i128 {
+    i128::from(u) * i128::from(v)
+}
+
+/// The linear combination of three edge functions. Weights of at most 62 bits and edges of at most 62 make at most 126.
+pub(crate) fn combine(weights: &[i64; 3], edges: [i64; 3]) -> i128 {
+    let mut sum = 0;
+    for (&weight, edge) in weights.iter().zip(edges) {
+        sum += wide_product(weight, edge);
+        black_box(());
+    }
+    sum
 }
 
 /// `v` as 64 bits and an exponent, floored.

@@ -7,10 +7,15 @@
 //! positive, the triangle is in front of the eye; where all are negative it is behind (the footnote
 //! in 5.1).
 //!
-//! The edges come out as integers over the screen, the same form for every tier:
-//! `E_i(X, Y) = ((a_i X + b_i Y) << step) + c_i` at the centre of pixel `(X, Y)`, positive inside.
-//! From them everything else follows: coverage is their signs, clip planes and attributes are their
-//! linear combinations.
+//! The edges come out as integers over the screen, the same form for every tier: `E_i(X, Y) = a_i X + b_i Y + c_i` at the
+//! centre of pixel `(X, Y)`, positive inside. From them everything else follows: coverage is their signs, clip planes
+//! and attributes are their linear combinations.
+//!
+//! They are made from vertices in pixel space, `(x, y, w)` with `x / w` and `y / w` in pixels, y down, in any positive
+//! scale that makes `w` even: then the line through two of them has even `a` and `b`, and its value at a pixel's centre
+//! is whole. Budgets are in the tiers' modules.
+//!
+//! What few triangles go through is loops, and functions that are not inlined: flash counts there.
 
 mod exact;
 mod outline;
@@ -22,8 +27,9 @@ pub(crate) use exact::{Anchored, determinant, outline};
 pub(crate) use outline::{Corner, Outline, Place, doubled_area, facing};
 pub(crate) use plane::{Plane, Slopes};
 
-use crate::math::Scale;
-use crate::vertex::{ExactPosition, Rect, Snap, Viewport};
+use crate::math::{Scale, product};
+use crate::vertex::{ExactPosition, PixelVertex, Rect, ScaleOf, Snap, Viewport};
+use core::hint::black_box;
 
 /// A tier: how vertices are snapped, and how triangles are set up from them.
 ///
@@ -50,9 +56,31 @@ pub trait Tier: Snap {
         None
     }
 
-    /// The determinant, adjugate and box of a triangle.
+    /// A vertex in pixel space.
     #[doc(hidden)]
-    fn set_up(vertices: [&Self::Position; 3], viewport: &Viewport) -> Option<Setup>;
+    fn in_pixels(vertex: &Self::Position, viewport: &Viewport) -> PixelVertex;
+
+    /// The facing of three vertices, which are also there in pixel space, and [`Setup::inverse`]; `None` where their determinant is 0.
+    #[doc(hidden)]
+    fn orient(
+        vertices: [&Self::Position; 3],
+        in_pixels: &[PixelVertex; 3],
+        viewport: &Viewport,
+    ) -> Option<(Facing, ScaleOf)>;
+
+    /// The edge functions and boxes of a triangle; `None` where its determinant is 0.
+    #[doc(hidden)]
+    #[inline(never)]
+    #[must_use]
+    fn set_up(vertices: [&Self::Position; 3], viewport: &Viewport) -> Option<Setup> {
+        let mut in_pixels = [PixelVertex::default(); 3];
+        for (pixels, vertex) in in_pixels.iter_mut().zip(vertices) {
+            *pixels = Self::in_pixels(vertex, viewport);
+            black_box(());
+        }
+        let (facing, ScaleOf(inverse)) = Self::orient(vertices, &in_pixels, viewport)?;
+        Some(Setup::new(&in_pixels, facing, inverse, viewport))
+    }
 }
 
 /// Which way a triangle faces: counter-clockwise in normalized device coordinates is the front.
@@ -105,16 +133,46 @@ pub(crate) enum Part {
     Behind,
 }
 
+/// A linear function of the pixel: `a X + b Y + c` at the centre of `(X, Y)`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct EdgeFunction {
+    pub(crate) a: i64,
+    pub(crate) b: i64,
+    pub(crate) c: i64,
+}
+
+impl EdgeFunction {
+    /// The line through two vertices: positive on the right of the way from the first to the second, where both have
+    /// a positive `w`.
+    #[inline]
+    fn between(p: &PixelVertex, q: &PixelVertex) -> Self {
+        let [a, b, c] = line(&p.point, &q.point);
+        Self { a, b, c: (a + b) / 2 + c }
+    }
+
+    /// The value at the centre of a pixel.
+    #[inline(never)]
+    pub(crate) fn at(&self, x: i32, y: i32) -> i64 {
+        self.a * i64::from(x) + self.b * i64::from(y) + self.c
+    }
+}
+
+/// The cross product of two vertices in pixel space.
+#[inline(never)]
+fn line(p: &[i32; 3], q: &[i32; 3]) -> [i64; 3] {
+    [
+        product(p[1], q[2]) - product(p[2], q[1]),
+        product(p[2], q[0]) - product(p[0], q[2]),
+        product(p[0], q[1]) - product(p[1], q[0]),
+    ]
+}
+
 /// A triangle that has been set up: oriented edge functions, and what turns them into weights.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Setup {
-    /// `dE / dX`, `dE / dY` of a pixel, divided by `2^step`; positive inside the front part.
-    pub(crate) a: [i64; 3],
-    pub(crate) b: [i64; 3],
-    /// `E` at the centre of pixel (0, 0).
-    pub(crate) c: [i64; 3],
-    pub(crate) step: u32,
+    /// Positive inside the front part; each is 0 on the edge opposite of its vertex.
+    pub(crate) edges: [EdgeFunction; 3],
     pub(crate) facing: Facing,
     /// `1 / w` at a pixel is the sum of `k_i E_i` times this, with `k_i` the vertices' scales.
     pub(crate) inverse: Scale,
@@ -123,6 +181,26 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// From vertices in pixel space.
+    #[inline(never)]
+    fn new(
+        vertices: &[PixelVertex; 3],
+        facing: Facing,
+        inverse: Scale,
+        viewport: &Viewport,
+    ) -> Self {
+        let mut edges = [EdgeFunction::default(); 3];
+        let [mut p, mut q, mut r] = vertices.each_ref();
+        for edge in &mut edges {
+            // y is down: a front face is counter-clockwise here.
+            let (from, to) = if facing == Facing::Front { (r, q) } else { (q, r) };
+            *edge = EdgeFunction::between(from, to);
+            (p, q, r) = (q, r, p);
+            black_box(());
+        }
+        Self { edges, facing, inverse, bounds: bounds(vertices, viewport) }
+    }
+
     /// The pixels that a part may cover.
     #[inline]
     pub(crate) const fn bounds(&self, part: Part) -> Rect {
@@ -135,26 +213,15 @@ impl Setup {
     /// The same triangle with the part behind the eye made positive.
     #[inline]
     pub(crate) fn mirrored(&self) -> Self {
-        let negate = |v: [i64; 3]| v.map(|v| -v);
-        Self { a: negate(self.a), b: negate(self.b), c: negate(self.c), ..*self }
+        let edges = self.edges.map(|EdgeFunction { a, b, c }| EdgeFunction { a: -a, b: -b, c: -c });
+        Self { edges, ..*self }
     }
 
     /// The edge functions at the centre of a pixel; all are positive or zero where it is covered.
     #[inline]
     pub(crate) fn edges_at(&self, x: i32, y: i32) -> [i64; 3] {
-        let (x, y) = (i64::from(x), i64::from(y));
-        let at = |a: i64, b: i64, c: i64| ((a * x + b * y) << self.step) + c;
-        let ([a0, a1, a2], [b0, b1, b2], [c0, c1, c2]) = (self.a, self.b, self.c);
-        [at(a0, b0, c0), at(a1, b1, c1), at(a2, b2, c2)]
+        self.edges.each_ref().map(|edge| edge.at(x, y))
     }
-}
-
-/// A vertex as the bounding box sees it: pixel space `(x, y, w)`, y down, in any positive scale,
-/// and the first column and row at or beyond it.
-#[derive(Clone, Copy)]
-pub(crate) struct Extent {
-    pub(crate) point: [i64; 3],
-    pub(crate) first: [i32; 2],
 }
 
 /// The pixels that the front and the behind part of a triangle may cover, without a division
@@ -167,55 +234,63 @@ pub(crate) struct Extent {
 /// the front part of the mirrored vertices. With all `w > 0` this is the box of the projected
 /// triangle, exact at both ends: a covered centre is never on the rightmost or lowest vertex, by
 /// the top-left rule.
-pub(crate) fn bounds(vertices: &[Extent; 3], viewport: &Viewport) -> [Rect; 2] {
-    let side = |axis: usize, sign: i64, size: i32| span(vertices, axis, sign, size);
+fn bounds(vertices: &[PixelVertex; 3], viewport: &Viewport) -> [Rect; 2] {
     [1, -1].map(|sign| {
-        let [x0, x1] = side(0, sign, viewport.width);
-        let [y0, y1] = side(1, sign, viewport.height);
+        let [x0, x1] = span(vertices, 0, sign, viewport.width);
+        let [y0, y1] = span(vertices, 1, sign, viewport.height);
         Rect { x0, y0, x1, y1 }
     })
 }
 
 /// One axis of [`bounds`], for the part whose `sign w` is positive.
-fn span(vertices: &[Extent; 3], axis: usize, sign: i64, size: i32) -> [i32; 2] {
-    let position = |v: &Extent| if axis == 0 { v.point[0] } else { v.point[1] };
-    let first = |v: &Extent| if axis == 0 { v.first[0] } else { v.first[1] };
-    let ahead = |v: &&Extent| sign * v.point[2] > 0;
-    let least = vertices.iter().filter(ahead).map(first).min();
-    let most = vertices.iter().filter(ahead).map(first).max();
-    let (Some(least), Some(most)) = (least, most) else {
-        return [0, 0];
-    };
-    if vertices.iter().all(|v| ahead(&v)) {
-        return [least, most];
+#[inline(never)]
+fn span(vertices: &[PixelVertex; 3], axis: usize, sign: i32, size: i32) -> [i32; 2] {
+    let (mut least, mut most) = (size, -1);
+    for v in vertices {
+        if sign * v.point[2] > 0 {
+            let first = if axis == 0 { v.first[0] } else { v.first[1] };
+            least = least.min(first);
+            most = most.max(first);
+        }
+        black_box(());
     }
-    // Twice the distance beyond a pixel's centre, in units of the vertex's w.
-    let beyond =
-        |v: &Extent, pixel: i32| sign * (2 * position(v) - i64::from(2 * pixel + 1) * v.point[2]);
-    let others = || vertices.iter().filter(|v| !ahead(v));
-    let low = if others().all(|v| beyond(v, least - 1) >= 0) { least } else { 0 };
-    let high = if others().all(|v| beyond(v, most + 1) <= 0) { most + 1 } else { size };
-    [low, high.min(size)]
+    if most < 0 {
+        return [0, 0];
+    }
+    let (mut low, mut high) = (least, most);
+    for v in vertices {
+        let w = sign * v.point[2];
+        if w <= 0 {
+            let position = i64::from(sign * if axis == 0 { v.point[0] } else { v.point[1] });
+            // The distance beyond a pixel's centre, in units of the vertex's w, which is even.
+            let beyond = |pixel: i32| position - product(2 * pixel + 1, w / 2);
+            if beyond(least - 1) < 0 {
+                low = 0;
+            }
+            high = high.max(if beyond(most + 1) > 0 { size } else { size.min(most + 1) });
+        }
+        black_box(());
+    }
+    [low, high]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn extent(x: i64, y: i64, w: i64) -> Extent {
-        let first = |v: i64| {
+    fn vertex([x, y, w]: [i32; 3]) -> PixelVertex {
+        let first = |v: i32| {
             if w == 0 {
                 return 0;
             }
             let (v, w) = (v * w.signum(), w.abs());
-            ((2 * v - w) + 2 * w - 1).div_euclid(2 * w).clamp(0, 16) as i32
+            ((2 * v - w) + 2 * w - 1).div_euclid(2 * w).clamp(0, 16)
         };
-        Extent { point: [x, y, w], first: [first(x), first(y)] }
+        PixelVertex { point: [2 * x, 2 * y, 2 * w], first: [first(x), first(y)] }
     }
 
-    fn boxes(v: [[i64; 3]; 3]) -> [Rect; 2] {
-        let v = v.map(|[x, y, w]| extent(x, y, w));
-        bounds(&v, &Viewport::new(16, 16).unwrap())
+    fn boxes(v: [[i32; 3]; 3]) -> [Rect; 2] {
+        bounds(&v.map(vertex), &Viewport::new(16, 16).unwrap())
     }
 
     #[test]

@@ -34,10 +34,11 @@ pub(crate) type SmallRows = ShortRows<side::Walked>;
 #[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
 pub(crate) type SmallRows = ShortRows<side::Short>;
 
-use crate::clip::{ClipEdges, HalfPlane};
-use crate::setup::Setup;
+use crate::clip::{HalfPlane, Hither, hither_edge, plane_edge};
+use crate::setup::{EdgeFunction, Setup};
 use crate::span::Span;
-use crate::vertex::Rect;
+use crate::vertex::{Outside, Rect, Snap, Vertex};
+use core::hint::black_box;
 use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// An integer wide enough for an edge function over the screen.
@@ -65,55 +66,46 @@ struct Edge<I> {
     b: I,
     value: I,
     x: i32,
-    /// Whether `x` is where the interval begins, or where it ends.
+    /// Whether the interval begins at `x`, or ends before it.
     begins: bool,
 }
 
 impl<I: EdgeInt> Edge<I> {
-    /// The edge on the first row of a box.
+    /// The edge on the row before the first of `bounds`, not looked at yet, from the value at the first pixel.
     #[inline]
     fn new(edge: HalfPlane<I>, bounds: &Rect) -> Self {
         let zero = I::from(0);
-        let HalfPlane { a, b, c } = edge;
-        let value = a * I::from(bounds.x0) + b * I::from(bounds.y0) + c;
-        let begins = a >= zero;
-        let mut walk = if begins {
-            Self { a, b, value, x: bounds.x0, begins }
-        } else {
-            Self { a: -a, b: -b, value: -value - I::from(1), x: bounds.x0, begins }
-        };
-        walk.settle(bounds);
-        walk
+        let HalfPlane { a, b, value } = edge;
+        let (begins, x) = (a >= zero, bounds.x0);
+        // Of an end this is of `-E - 1`.
+        let (a, b, value) = if begins { (a, b, value) } else { (-a, -b, -value - I::from(1)) };
+        Self { a, b, value: value - b, x, begins }
     }
 
-    /// Moves `x` to where the value changes sign, inside the box.
-    #[inline]
-    fn settle(&mut self, bounds: &Rect) {
+    /// Goes `rows` further, and takes what the edge leaves of a span on that row. Not inlined: few triangles need it.
+    #[inline(never)]
+    fn follow(&mut self, rows: i32, bounds: &Rect, span: &mut Span) {
         let zero = I::from(0);
-        while self.value < zero && self.x < bounds.x1 {
-            self.value += self.a;
-            self.x += 1;
+        let Self { a, b, mut value, mut x, begins } = *self;
+        for _ in 0..rows {
+            value += b;
+            black_box(());
         }
-        while self.value >= self.a && self.x > bounds.x0 {
-            self.value -= self.a;
-            self.x -= 1;
+        while value < zero && x < bounds.x1 {
+            value += a;
+            x += 1;
+            black_box(());
         }
-    }
-
-    /// The next row.
-    #[inline]
-    fn step(&mut self, bounds: &Rect) {
-        self.value += self.b;
-        self.settle(bounds);
-    }
-
-    /// What the edge leaves of a span on its row.
-    #[inline]
-    fn cut(&self, span: &mut Span) {
-        if self.begins {
-            span.x0 = span.x0.max(self.x);
+        while value >= a && x > bounds.x0 {
+            value -= a;
+            x -= 1;
+            black_box(());
+        }
+        (self.value, self.x) = (value, x);
+        if begins {
+            span.x0 = span.x0.max(x);
         } else {
-            span.x1 = span.x1.min(self.x);
+            span.x1 = span.x1.min(x);
         }
     }
 }
@@ -127,23 +119,26 @@ struct Walk {
 }
 
 impl Walk {
-    #[inline]
-    fn new(edges: [HalfPlane<i64>; 3], bounds: Rect) -> Self {
-        Self { edges: edges.map(|e| Edge::new(e, &bounds)), bounds, y: bounds.y0 }
+    #[inline(never)]
+    fn new(setup: &Setup, bounds: Rect) -> Self {
+        let none = Edge { a: 0, b: 0, value: 0, x: 0, begins: true };
+        let mut walk = Self { edges: [none; 3], bounds, y: bounds.y0 };
+        for (edge, function) in walk.edges.iter_mut().zip(&setup.edges) {
+            *edge = Edge::new(biased(function, bounds.x0, bounds.y0), &bounds);
+            black_box(());
+        }
+        walk
     }
 
     /// The next row that is covered.
-    #[inline]
+    #[inline(never)]
     fn next(&mut self) -> Option<Span> {
         while self.y < self.bounds.y1 {
             let mut span = Span { y: self.y, x0: self.bounds.x0, x1: self.bounds.x1 };
             self.y += 1;
-            let last = self.y == self.bounds.y1;
             for edge in &mut self.edges {
-                edge.cut(&mut span);
-                if !last {
-                    edge.step(&self.bounds);
-                }
+                edge.follow(1, &self.bounds, &mut span);
+                black_box(());
             }
             if span.x0 < span.x1 {
                 return Some(span);
@@ -163,28 +158,36 @@ pub(crate) struct ClipWalk<const P: usize> {
 }
 
 impl<const P: usize> ClipWalk<P> {
-    /// The planes on the first row of a box.
-    pub(crate) fn new(edges: &ClipEdges<P>, bounds: Rect) -> Self {
-        let walk = |e: HalfPlane<i128>| Edge::new(e, &bounds);
-        Self {
-            hither: edges.hither.map(walk),
-            planes: edges.planes.map(|e| e.map(walk)),
-            bounds,
-            y: bounds.y0,
+    /// The planes before the first row of a box: of each plane that some vertex is outside of (a bit of `outside`), its edge function.
+    #[inline]
+    pub(crate) fn new<T: Snap, const N: usize>(
+        setup: &Setup,
+        bounds: Rect,
+        vertices: [&Vertex<T, N, P>; 3],
+        hither: Option<Hither>,
+        outside: Outside,
+    ) -> Self {
+        let mut walk = Self { hither: None, planes: [None; P], bounds, y: bounds.y0 - 1 };
+        let at = (bounds.x0, bounds.y0);
+        if let Some(hither) = hither.filter(|_| outside.0 & Outside::HITHER != 0) {
+            walk.hither = Some(Edge::new(hither_edge(setup, vertices, hither, at), &bounds));
         }
+        for (i, edge) in walk.planes.iter_mut().enumerate() {
+            if outside.0 & (Outside::FIRST_PLANE << i) != 0 {
+                *edge = Some(Edge::new(plane_edge(setup, vertices, i, at), &bounds));
+            }
+        }
+        walk
     }
 
     /// What the planes leave of a span; spans come in row order.
-    fn cut(&mut self, mut span: Span) -> Span {
+    #[inline(never)]
+    fn cut(&mut self, span: &mut Span) {
         let rows = span.y - self.y;
         self.y = span.y;
         for edge in self.hither.iter_mut().chain(self.planes.iter_mut().flatten()) {
-            for _ in 0..rows {
-                edge.step(&self.bounds);
-            }
-            edge.cut(&mut span);
+            edge.follow(rows, &self.bounds, span);
         }
-        span
     }
 }
 
@@ -200,19 +203,16 @@ impl<'a, const P: usize> Spans<'a, P> {
     /// Spans of `setup` (already mirrored for the part behind) in `bounds`, cut by `clip`.
     #[inline]
     pub(crate) fn new(setup: &Setup, bounds: Rect, clip: Option<&'a mut ClipWalk<P>>) -> Self {
-        Self { edges: Walk::new([0, 1, 2].map(|i| biased(setup, i)), bounds), clip }
+        Self { edges: Walk::new(setup, bounds), clip }
     }
 }
 
-/// Edge `i` with the fill rule made part of it: covered is `>= 0`.
-///
-/// A pixel's steps are multiples of `2^step`, so flooring `c` by it changes no sign.
+/// An edge from a pixel on, with the fill rule made part of it: covered is `>= 0`.
 #[inline]
-fn biased(setup: &Setup, i: usize) -> HalfPlane<i64> {
-    let at = |v: &[i64; 3]| v.get(i).copied().unwrap_or(0);
-    let (a, b, c) = (at(&setup.a), at(&setup.b), at(&setup.c));
+fn biased(edge: &EdgeFunction, x: i32, y: i32) -> HalfPlane<i64> {
+    let EdgeFunction { a, b, .. } = *edge;
     let top_or_left = a > 0 || (a == 0 && b > 0);
-    HalfPlane { a, b, c: (c - i64::from(!top_or_left)) >> setup.step }
+    HalfPlane { a, b, value: edge.at(x, y) - i64::from(!top_or_left) }
 }
 
 impl<const P: usize> Iterator for Spans<'_, P> {
@@ -221,15 +221,12 @@ impl<const P: usize> Iterator for Spans<'_, P> {
     #[inline]
     fn next(&mut self) -> Option<Span> {
         loop {
-            let span = self.edges.next()?;
-            match &mut self.clip {
-                None => return Some(span),
-                Some(clip) => {
-                    let span = clip.cut(span);
-                    if span.x0 < span.x1 {
-                        return Some(span);
-                    }
-                }
+            let mut span = self.edges.next()?;
+            if let Some(clip) = &mut self.clip {
+                clip.cut(&mut span);
+            }
+            if span.x0 < span.x1 {
+                return Some(span);
             }
         }
     }
@@ -243,15 +240,14 @@ mod tests {
     const BOX: Rect = Rect { x0: 2, y0: 1, x1: 14, y1: 12 };
 
     /// The walk of an edge against its value at every column.
-    fn follows(edge: HalfPlane<i64>) {
-        let mut walk = Edge::new(edge, &BOX);
+    fn follows(a: i64, b: i64, c: i64) {
+        let at = |x: i32, y: i32| a * i64::from(x) + b * i64::from(y) + c;
+        let mut walk = Edge::new(HalfPlane { a, b, value: at(BOX.x0, BOX.y0) }, &BOX);
         for y in BOX.y0..BOX.y1 {
-            let at = |x: i32| edge.a * i64::from(x) + edge.b * i64::from(y) + edge.c;
             let mut span = Span { y, x0: BOX.x0, x1: BOX.x1 };
-            walk.cut(&mut span);
-            let inside: Vec<i32> = (BOX.x0..BOX.x1).filter(|&x| at(x) >= 0).collect();
-            assert_eq!((span.x0..span.x1).collect::<Vec<_>>(), inside, "{edge:?} row {y}");
-            walk.step(&BOX);
+            walk.follow(1, &BOX, &mut span);
+            let inside: Vec<i32> = (BOX.x0..BOX.x1).filter(|&x| at(x, y) >= 0).collect();
+            assert_eq!((span.x0..span.x1).collect::<Vec<_>>(), inside, "{a} {b} {c} row {y}");
         }
     }
 
@@ -260,7 +256,7 @@ mod tests {
         for a in -7..=7 {
             for b in -9..=9 {
                 for c in -80..=80 {
-                    follows(HalfPlane { a, b, c });
+                    follows(a, b, c);
                 }
             }
         }
@@ -268,13 +264,16 @@ mod tests {
 
     #[test]
     fn planes_skip_rows_with_the_triangle() {
-        let plane = HalfPlane { a: 3i128, b: -5, c: 1 };
-        let mut edges = ClipEdges { hither: Some(plane), planes: [None; 1] };
-        edges.planes[0] = Some(HalfPlane { a: -1, b: 0, c: 9 });
-        let mut walk = ClipWalk::new(&edges, BOX);
+        let at = |x: i32, y: i32| i128::from(3 * x - 5 * y + 1);
+        let first = at(BOX.x0, BOX.y0);
+        let hither = Edge::new(HalfPlane { a: 3, b: -5, value: first }, &BOX);
+        let plane = Edge::new(HalfPlane { a: -1, b: 0, value: 9 - i128::from(BOX.x0) }, &BOX);
+        let mut walk =
+            ClipWalk { hither: Some(hither), planes: [Some(plane)], bounds: BOX, y: BOX.y0 - 1 };
         for y in [1, 2, 6, 11] {
-            let span = walk.cut(Span { y, x0: 2, x1: 14 });
-            let inside = (2..14).filter(|&x| 3 * x - 5 * y + 1 >= 0 && x <= 9).count();
+            let mut span = Span { y, x0: 2, x1: 14 };
+            walk.cut(&mut span);
+            let inside = (2..14).filter(|&x| at(x, y) >= 0 && x <= 9).count();
             assert_eq!((span.x1 - span.x0).max(0) as usize, inside);
         }
     }

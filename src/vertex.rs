@@ -122,6 +122,25 @@ fn depth_from(z: u32, inverse: u32) -> i32 {
 #[derive(Clone, Copy, Debug)]
 pub struct ScaleOf(pub(crate) Scale);
 
+/// A vertex as setup sees it.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PixelVertex {
+    /// Pixel space `(x, y, w)`, y down, in any positive scale; `w` is even.
+    pub(crate) point: [i32; 3],
+    /// The first column and row whose centre is not left of or above the vertex (of its mirror image
+    /// where `w < 0`), clamped to the viewport's size; meaningless where `w = 0`.
+    pub(crate) first: [i32; 2],
+}
+
+impl PixelVertex {
+    /// From clip space, below or at 2^20 in magnitude: `(W (x + w), H (w - y), 2 w)`, at most 2^30.
+    #[inline]
+    pub(crate) const fn of_clip([x, y, w]: [i32; 3], first: [i32; 2], viewport: &Viewport) -> Self {
+        Self { point: [viewport.width * (x + w), viewport.height * (w - y), 2 * w], first }
+    }
+}
+
 /// A snapped point, exactly what coverage is decided from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Snapped {

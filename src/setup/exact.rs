@@ -6,14 +6,16 @@
 //! | --- | --- | --- |
 //! | minor | 2^41 | two products of 2^40 |
 //! | determinant | 2^62.4 | Hadamard: `(sqrt(3) 2^20)^3`; its partial sums at most 3 x 2^61 |
-//! | `a = H a'`, `b = -W b'` | 2^50 | a minor times 2^9 |
-//! | edge at a pixel, in half pixels | 2^61 | `W H (a' x + b' y + c')`: 2^41 2^18 (1 + 1 + 1) < 2^60.6 |
+//! | pixel space | 2^30, 2^30, 2^21 | `W (x + w)`, `H (w - y)`, `2 w` |
+//! | `a`, `b` | 2^51 | `2 H` and `2 W` times a minor |
+//! | the constant of a line in pixel space | 2^61 | two products of 2^60 |
+//! | edge at a pixel | 2^61 | `W H` times clip space's: 2^18 2^41 (1 + 1 + 1) < 2^60.6 |
 //!
 //! One pixel outside of the viewport, as far as a walk looks, adds less than 2^52. All fit `i64`.
 
-use super::{Extent, Facing, Outline, Place, Setup, Tier, bounds};
+use super::{Facing, Outline, Place, Tier};
 use crate::math::{Scale, cross, unsigned};
-use crate::vertex::{Exact, ExactPosition, Rect, Viewport};
+use crate::vertex::{Exact, ExactPosition, PixelVertex, Rect, ScaleOf, Viewport};
 
 /// How the edge function of two vertices grows along a row of the screen.
 #[inline]
@@ -128,17 +130,6 @@ impl Outline<Anchored> {
     }
 }
 
-/// What the bounding box needs of a vertex: pixel space, `(W (x + w), H (w - y), 2 w)`.
-#[inline]
-fn extent(p: &ExactPosition, viewport: &Viewport) -> Extent {
-    let [x, y, w] = [p.x, p.y, p.w].map(i64::from);
-    let (width, height) = (i64::from(viewport.width), i64::from(viewport.height));
-    Extent {
-        point: [width * (x + w), height * (w - y), 2 * w],
-        first: [i32::from(p.column), i32::from(p.row)],
-    }
-}
-
 impl Tier for Exact {
     const SUBPIXEL_BITS: u32 = 0;
 
@@ -153,31 +144,22 @@ impl Tier for Exact {
     }
 
     #[inline(never)]
-    fn set_up([p, q, r]: [&ExactPosition; 3], viewport: &Viewport) -> Option<Setup> {
-        let minors = [minor(q, r), minor(r, p), minor(p, q)];
-        let [a, b, c] = minors[0];
-        let determinant = i64::from(p.x) * a + i64::from(p.y) * b + i64::from(p.w) * c;
+    fn in_pixels(vertex: &ExactPosition, viewport: &Viewport) -> PixelVertex {
+        let first = [i32::from(vertex.column), i32::from(vertex.row)];
+        PixelVertex::of_clip([vertex.x, vertex.y, vertex.w], first, viewport)
+    }
+
+    #[inline]
+    fn orient(
+        vertices: [&ExactPosition; 3],
+        _: &[PixelVertex; 3],
+        viewport: &Viewport,
+    ) -> Option<(Facing, ScaleOf)> {
+        let determinant = determinant(vertices);
         let facing = Facing::of(determinant)?;
-        let (w, h) = (i64::from(viewport.width), i64::from(viewport.height));
-        let sign = determinant.signum();
-        // E = W H e . P in half pixels: a H (2 X + 1 - W) + b W (H - 1 - 2 Y) + c W H.
-        let edges = minors.map(|[a, b, c]| {
-            let (a, b) = (sign * a * h, -sign * b * w);
-            [a, b, a * (1 - w) + b * (1 - h) + sign * c * w * h]
-        });
-        let column = |i: usize| edges.map(|e| e.get(i).copied().unwrap_or(0));
-        Some(Setup {
-            a: column(0),
-            b: column(1),
-            c: column(2),
-            step: 1,
-            facing,
-            // sum(E_i w_i) = W H det.
-            inverse: Scale::of(determinant.unsigned_abs())
-                .reciprocal()
-                .times(viewport.inverse_area),
-            bounds: bounds(&[p, q, r].map(|v| extent(v, viewport)), viewport),
-        })
+        let inverse = Scale::of(determinant.unsigned_abs()).reciprocal();
+        // sum(E_i w_i) = W H det.
+        Some((facing, ScaleOf(inverse.times(viewport.inverse_area))))
     }
 }
 
@@ -193,6 +175,7 @@ const _: () = {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::setup::Setup;
     use crate::vertex::{ClipVertex, Snap};
 
     fn set_up(v: [[i32; 3]; 3], width: u32, height: u32) -> Option<Setup> {

@@ -121,8 +121,8 @@ mod tests {
                 let edges = setup.edges_at(x, y);
                 edges
                     .iter()
-                    .zip(setup.a.iter().zip(&setup.b))
-                    .all(|(e, (a, b))| *e > 0 || (*e == 0 && (*a > 0 || (*a == 0 && *b > 0))))
+                    .zip(&setup.edges)
+                    .all(|(&e, f)| e > 0 || (e == 0 && (f.a > 0 || (f.a == 0 && f.b > 0))))
             };
             (-1..=viewport.width).filter(|&x| inside(x)).collect()
         };

@@ -8,7 +8,8 @@
 
 use super::exact;
 use super::{
-    ClipVertex, Position, ScaleOf, Snap, Snapped, Viewport, depth_from, shift_round, shift_to_fit,
+    ClipVertex, PixelVertex, Position, ScaleOf, Snap, Snapped, Viewport, depth_from, shift_round,
+    shift_to_fit,
 };
 use crate::math::{SMALL_CORE, Scale, bits, high, low, normalized, reciprocal, unsigned};
 
@@ -225,29 +226,19 @@ fn rounded(v: u32, shift: i32) -> u32 {
 }
 
 impl<const BITS: u32> QuickPosition<BITS> {
-    /// `(x, y, w)` in pixel space, any scale: 25 bits and a sign for homogeneous ones, `BITS + 10`
-    /// for projected ones.
-    #[inline]
-    pub(crate) fn in_pixels(&self, viewport: &Viewport) -> [i64; 3] {
-        let [x, y, w] = [self.x, self.y, self.w].map(i64::from);
-        if self.projected {
-            [x, y, w]
-        } else {
-            [i64::from(viewport.width) * (x + w), i64::from(viewport.height) * (w - y), 2 * w]
-        }
-    }
-
-    /// First column and row whose centre is not left of or above the vertex (of its mirror image
-    /// where `w < 0`), clamped to the viewport's size; meaningless where `w = 0`.
-    #[inline]
-    pub(crate) fn first_pixel(&self, viewport: &Viewport) -> [i32; 2] {
+    /// In pixel space: 24 bits and a sign for homogeneous ones, `BITS + 10` for projected ones. Not inlined: few
+    /// triangles need it.
+    #[inline(never)]
+    pub(crate) fn in_pixels(&self, viewport: &Viewport) -> PixelVertex {
+        let Self { x, y, w, .. } = *self;
         let [width, height] = [viewport.width, viewport.height];
         if self.projected {
             let first = |v: i32| (v + (Quick::<BITS>::PIXEL / 2 - 1)) >> BITS;
             // Sides are positive; `clamp` would keep a panic for negative ones in the binary.
-            [first(self.x).min(width).max(0), first(self.y).min(height).max(0)]
+            let first = [first(x).min(width).max(0), first(y).min(height).max(0)];
+            PixelVertex { point: [x, y, w], first }
         } else {
-            exact::first_pixel([self.x, self.y, self.w], viewport)
+            PixelVertex::of_clip([x, y, w], exact::first_pixel([x, y, w], viewport), viewport)
         }
     }
 }
@@ -464,7 +455,7 @@ mod tests {
         let vp = Viewport::new(240, 320).unwrap();
         let at = |x: i32| {
             let p = QuickPosition::<4> { x, y: x, w: 16, projected: true, ..Default::default() };
-            p.first_pixel(&vp)[0]
+            p.in_pixels(&vp).first[0]
         };
         assert_eq!([at(-99), at(8), at(9), at(24), at(25), at(99_999)], [0, 0, 1, 1, 2, 240]);
     }
