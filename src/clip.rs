@@ -16,10 +16,9 @@
 //! `p_i` is the vertex that came in, before it was snapped; but the hither plane looks at the snapped
 //! `w`, which is what `1 / w` is interpolated from. On the exact tier's grid both are the same.
 
-use crate::math::{Scale, Signed, align, wide_product};
+use crate::math::{Scale, Signed, align, combine};
 use crate::setup::Setup;
 use crate::vertex::{ClipVertex, Position, ScaleOf, Snap, Snapped, Vertex};
-use core::hint::black_box;
 use fixed::types::I16F16;
 
 /// What is kept along `w`: a type, so that a scene without a hither plane has no code for one.
@@ -142,30 +141,50 @@ impl Plane {
     }
 }
 
-/// A linear function of the pixel that is 0 or more inside: what a pixel right and a pixel down add, and its value at
-/// the pixel it was asked for.
+/// A linear function of the pixel, as rows follow it down: what it leaves of a row begins at the first column where it is
+/// 0 or more, or ends before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfPlane<I> {
+    /// What a pixel to the right adds: not negative.
     pub(crate) a: I,
+    /// What a pixel down adds.
     pub(crate) b: I,
     pub(crate) value: I,
+    pub(crate) begins: bool,
 }
 
-/// The edge function of a plane with values `values[i] = k_i n(p_i)`, over an oriented setup, from a pixel on.
+/// The edge function of a plane with values `values[i] = k_i n(p_i)`, over an oriented setup, at a pixel.
+///
+/// Where it decreases along a row it is that of `-n`, less 1.
 #[inline(never)]
 fn half_plane(setup: &Setup, values: &[Signed; 3], x: i32, y: i32) -> HalfPlane<i128> {
-    let (values, _) = align(*values);
-    let mut sum = HalfPlane { a: 0, b: 0, value: 0 };
-    for (value, edge) in values.into_iter().zip(&setup.edges) {
-        sum.a += wide_product(value, edge.a);
-        sum.b += wide_product(value, edge.b);
-        sum.value += wide_product(value, edge.at(x, y));
-        black_box(());
+    let (mut values, _) = align(values);
+    let mut a = combine(&values, &setup.across());
+    let begins = a >= 0;
+    if !begins {
+        a = -a;
+        let [u, v, w] = values;
+        values = [-u, -v, -w];
     }
-    sum
+    let b = combine(&values, &setup.down());
+    let value = combine(&values, &setup.edges_at(x, y)) - i128::from(!begins);
+    HalfPlane { a, b, value, begins }
+}
+
+/// `k n(p)` of a vertex, for clip plane `i`.
+#[inline(never)]
+fn above_plane<T: Snap, const N: usize, const P: usize>(
+    vertex: &Vertex<T, N, P>,
+    i: usize,
+) -> Signed {
+    let ScaleOf(k) = vertex.position.scale();
+    let distance = vertex.distances.get(i).map_or(0, |distance| distance.get());
+    let raw = Scale::power_of_two(i32::from(vertex.shift));
+    Signed::of(distance).times(k).times(raw)
 }
 
 /// `k (w - h)` of a snapped vertex.
+#[inline(never)]
 fn above_hither<P: Position>(position: &P, hither: Hither) -> Signed {
     let h = i64::from(hither.raw());
     match position.homogeneous() {
@@ -190,7 +209,7 @@ fn above_hither<P: Position>(position: &P, hither: Hither) -> Signed {
     }
 }
 
-/// The edge function of the hither plane, from a pixel on.
+/// The edge function of the hither plane, at a pixel.
 #[inline(never)]
 pub(crate) fn hither_edge<T: Snap, const N: usize, const P: usize>(
     setup: &Setup,
@@ -198,15 +217,13 @@ pub(crate) fn hither_edge<T: Snap, const N: usize, const P: usize>(
     hither: Hither,
     (x, y): (i32, i32),
 ) -> HalfPlane<i128> {
-    let mut values = [Signed::of(0); 3];
-    for (value, vertex) in values.iter_mut().zip(vertices) {
-        *value = above_hither(&vertex.position, hither);
-        black_box(());
-    }
+    let [a, b, c] = vertices;
+    let value = |vertex: &Vertex<T, N, P>| above_hither(&vertex.position, hither);
+    let values = [value(a), value(b), value(c)];
     half_plane(setup, &values, x, y)
 }
 
-/// The edge function of clip plane `i`, from a pixel on.
+/// The edge function of clip plane `i`, at a pixel.
 #[inline(never)]
 pub(crate) fn plane_edge<T: Snap, const N: usize, const P: usize>(
     setup: &Setup,
@@ -214,14 +231,8 @@ pub(crate) fn plane_edge<T: Snap, const N: usize, const P: usize>(
     i: usize,
     (x, y): (i32, i32),
 ) -> HalfPlane<i128> {
-    let mut values = [Signed::of(0); 3];
-    for (value, vertex) in values.iter_mut().zip(vertices) {
-        let ScaleOf(k) = vertex.position.scale();
-        let distance = vertex.distances.get(i).map_or(0, |distance| distance.get());
-        let raw = Scale::power_of_two(i32::from(vertex.shift));
-        *value = Signed::of(distance).times(k).times(raw);
-        black_box(());
-    }
+    let [a, b, c] = vertices;
+    let values = [above_plane(a, i), above_plane(b, i), above_plane(c, i)];
     half_plane(setup, &values, x, y)
 }
 

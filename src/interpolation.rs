@@ -280,7 +280,7 @@ impl<const N: usize> Varyings<N> {
             };
             scale.times(setup.inverse)
         });
-        let ([s0, s1, s2], [e0, e1, e2]) = (scale, setup.edges.map(|edge| edge.a));
+        let ([s0, s1, s2], [e0, e1, e2]) = (scale, setup.across());
         let steps = [weight_step(s0, e0), weight_step(s1, e1), weight_step(s2, e2)];
         let q_step = saturate(shr_round(steps[0] + steps[1] + steps[2], 2));
         let [v0, v1, v2] = vertices.map(|v| v.varyings);

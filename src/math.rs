@@ -249,16 +249,18 @@ impl Scale {
     #[inline]
     pub(crate) const fn times(self, other: Self) -> Self {
         let product = self.mantissa as u64 * other.mantissa as u64;
-        let zeros = product.leading_zeros() & 63;
-        Self {
-            mantissa: high(product << zeros),
-            exponent: self.exponent + other.exponent + 32 - bits(zeros),
+        let exponent = self.exponent + other.exponent + 32;
+        // The top bit is 62 or 63.
+        if product >> 63 == 0 {
+            Self { mantissa: high(product << 1), exponent: exponent - 1 }
+        } else {
+            Self { mantissa: high(product), exponent }
         }
     }
 
     /// `v * self * 2^fraction`, rounded to nearest (to one part in 2^62 and half a unit),
-    /// saturating to `i64`.
-    #[inline]
+    /// saturating to `i64`. Not inlined: few triangles need it.
+    #[inline(never)]
     #[expect(clippy::cast_possible_wrap, reason = "below 2^63 where it is cast")]
     #[expect(clippy::cast_sign_loss, reason = "a right shift of 1 to 64 where it is cast")]
     pub(crate) const fn apply(self, v: i64, fraction: i32) -> i64 {
@@ -325,16 +327,24 @@ pub(crate) struct Signed {
 }
 
 impl Signed {
-    /// `v`, truncated to 32 bits of precision.
-    #[inline]
+    /// `v`, truncated to 32 bits of precision. Not inlined, as all of these: few triangles need them.
+    #[inline(never)]
     pub(crate) const fn of(v: i64) -> Self {
         Self { negative: v < 0, scale: Scale::of(v.unsigned_abs()) }
     }
 
     /// `self * scale`, truncated.
-    #[inline]
+    #[inline(never)]
     pub(crate) const fn times(self, scale: Scale) -> Self {
         Self { scale: self.scale.times(scale), ..self }
+    }
+
+    /// In units of `2^(top - 30)`, for `top` at or above its exponent, floored towards 0.
+    #[inline(never)]
+    fn aligned(&self, top: i32) -> i64 {
+        let drop = (top - self.scale.exponent).clamp(0, 63).unsigned_abs();
+        let magnitude = (i64::from(self.scale.mantissa) << 30) >> drop;
+        if self.negative { -magnitude } else { magnitude }
     }
 
     /// [`Scale::apply`] with the sign.
@@ -347,35 +357,41 @@ impl Signed {
 
 /// Three reals as integers of at most 62 bits, and the exponent of their unit: exact but for what is
 /// more than 31 bits below the largest, of which bits below 2^-61 of it are dropped.
-pub(crate) fn align(values: [Signed; 3]) -> ([i64; 3], i32) {
-    let top = values
-        .iter()
-        .filter(|v| v.scale.mantissa != 0)
-        .map(|v| v.scale.exponent)
-        .max()
-        .unwrap_or(0);
-    let aligned = values.map(|v| {
-        let drop = (top - v.scale.exponent).clamp(0, 63).unsigned_abs();
-        let magnitude = (i64::from(v.scale.mantissa) << 30) >> drop;
-        if v.negative { -magnitude } else { magnitude }
-    });
-    (aligned, top - 30)
-}
-
-/// `u v`. Not inlined: few triangles need it.
 #[inline(never)]
-pub(crate) fn wide_product(u: i64, v: i64) -> i128 {
-    i128::from(u) * i128::from(v)
+pub(crate) fn align(values: &[Signed; 3]) -> ([i64; 3], i32) {
+    let mut top = None;
+    for v in rolled(values) {
+        if v.scale.mantissa != 0 {
+            top = top.max(Some(v.scale.exponent));
+        }
+    }
+    let top = top.unwrap_or(0);
+    let [u, v, w] = values;
+    ([u.aligned(top), v.aligned(top), w.aligned(top)], top - 30)
 }
 
-/// The linear combination of three edge functions. Weights of at most 62 bits and edges of at most 62 make at most 126.
-pub(crate) fn combine(weights: &[i64; 3], edges: [i64; 3]) -> i128 {
+/// Adds `u v`. In place and not inlined: few triangles need it.
+#[inline(never)]
+fn add_product(sum: &mut i128, u: i64, v: i64) {
+    *sum += i128::from(u) * i128::from(v);
+}
+
+/// The linear combination of three edge functions, or of their steps. Weights of at most 62 bits and
+/// edges of at most 62 make at most 126.
+#[inline(never)]
+pub(crate) fn combine([u, v, w]: &[i64; 3], [x, y, z]: &[i64; 3]) -> i128 {
     let mut sum = 0;
-    for (&weight, edge) in weights.iter().zip(edges) {
-        sum += wide_product(weight, edge);
-        black_box(());
-    }
+    add_product(&mut sum, *u, *x);
+    add_product(&mut sum, *v, *y);
+    add_product(&mut sum, *w, *z);
     sum
+}
+
+/// The items, one after the other by a loop that is not unrolled: for what few triangles need.
+#[inline]
+pub(crate) fn rolled<T>(items: &[T]) -> impl Iterator<Item = &T> {
+    // Of a known length it would be unrolled whole, with nothing that may have an effect by parts.
+    black_box(items).iter().inspect(|_| black_box(()))
 }
 
 /// `v` as 64 bits and an exponent, floored.
@@ -530,11 +546,11 @@ mod tests {
     #[test]
     fn aligned_values_keep_sign_and_ratio() {
         let values = [Signed::of(3), Signed::of(-5), Signed::of(7).times(Scale::power_of_two(40))];
-        let ([a, b, c], exponent) = align(values);
+        let ([a, b, c], exponent) = align(&values);
         assert_eq!(c, 7 << (40 - exponent));
         let [a, b, c] = [a, b, c].map(i128::from);
         assert_eq!((a * 5, c), (-b * 3, (a << 40) / 3 * 7));
-        let ([zero, _, top], _) = align([Signed::of(0), Signed::of(1), Signed::of(i64::MIN)]);
+        let ([zero, _, top], _) = align(&[Signed::of(0), Signed::of(1), Signed::of(i64::MIN)]);
         assert_eq!((zero, top), (0, -(1 << 61)));
     }
 

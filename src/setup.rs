@@ -27,9 +27,8 @@ pub(crate) use exact::{Anchored, determinant, outline};
 pub(crate) use outline::{Corner, Outline, Place, doubled_area, facing};
 pub(crate) use plane::{Plane, Slopes};
 
-use crate::math::{Scale, product};
+use crate::math::{Scale, product, rolled};
 use crate::vertex::{ExactPosition, PixelVertex, Rect, ScaleOf, Snap, Viewport};
-use core::hint::black_box;
 
 /// A tier: how vertices are snapped, and how triangles are set up from them.
 ///
@@ -73,11 +72,9 @@ pub trait Tier: Snap {
     #[inline(never)]
     #[must_use]
     fn set_up(vertices: [&Self::Position; 3], viewport: &Viewport) -> Option<Setup> {
-        let mut in_pixels = [PixelVertex::default(); 3];
-        for (pixels, vertex) in in_pixels.iter_mut().zip(vertices) {
-            *pixels = Self::in_pixels(vertex, viewport);
-            black_box(());
-        }
+        let [p, q, r] = vertices;
+        let in_pixels = |vertex| Self::in_pixels(vertex, viewport);
+        let in_pixels = [in_pixels(p), in_pixels(q), in_pixels(r)];
         let (facing, ScaleOf(inverse)) = Self::orient(vertices, &in_pixels, viewport)?;
         Some(Setup::new(&in_pixels, facing, inverse, viewport))
     }
@@ -142,11 +139,15 @@ pub(crate) struct EdgeFunction {
 }
 
 impl EdgeFunction {
-    /// The line through two vertices: positive on the right of the way from the first to the second, where both have
-    /// a positive `w`.
-    #[inline]
-    fn between(p: &PixelVertex, q: &PixelVertex) -> Self {
-        let [a, b, c] = line(&p.point, &q.point);
+    /// The line through two vertices of a triangle, positive inside where all have a positive `w`.
+    #[inline(never)]
+    fn between(p: &PixelVertex, q: &PixelVertex, facing: Facing) -> Self {
+        // y is down: a front face is counter-clockwise here.
+        let [a, b, c] = if facing == Facing::Front {
+            line(&q.point, &p.point)
+        } else {
+            line(&p.point, &q.point)
+        };
         Self { a, b, c: (a + b) / 2 + c }
     }
 
@@ -189,16 +190,15 @@ impl Setup {
         inverse: Scale,
         viewport: &Viewport,
     ) -> Self {
-        let mut edges = [EdgeFunction::default(); 3];
-        let [mut p, mut q, mut r] = vertices.each_ref();
-        for edge in &mut edges {
-            // y is down: a front face is counter-clockwise here.
-            let (from, to) = if facing == Facing::Front { (r, q) } else { (q, r) };
-            *edge = EdgeFunction::between(from, to);
-            (p, q, r) = (q, r, p);
-            black_box(());
-        }
-        Self { edges, facing, inverse, bounds: bounds(vertices, viewport) }
+        let [p, q, r] = vertices;
+        let edge = |from, to| EdgeFunction::between(from, to, facing);
+        let bounds = bounds(vertices, viewport);
+        let mut setup = Self { edges: [edge(q, r); 3], facing, inverse, bounds };
+        let [_, second, third] = &mut setup.edges;
+        // One by one: an array of its own would be copied.
+        *second = edge(r, p);
+        *third = edge(p, q);
+        setup
     }
 
     /// The pixels that a part may cover.
@@ -217,10 +217,25 @@ impl Setup {
         Self { edges, ..*self }
     }
 
+    /// What a pixel to the right adds to each edge function.
+    #[inline(never)]
+    pub(crate) fn across(&self) -> [i64; 3] {
+        let [first, second, third] = &self.edges;
+        [first.a, second.a, third.a]
+    }
+
+    /// What a pixel down adds to each edge function.
+    #[inline(never)]
+    pub(crate) fn down(&self) -> [i64; 3] {
+        let [first, second, third] = &self.edges;
+        [first.b, second.b, third.b]
+    }
+
     /// The edge functions at the centre of a pixel; all are positive or zero where it is covered.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn edges_at(&self, x: i32, y: i32) -> [i64; 3] {
-        self.edges.each_ref().map(|edge| edge.at(x, y))
+        let [first, second, third] = &self.edges;
+        [first.at(x, y), second.at(x, y), third.at(x, y)]
     }
 }
 
@@ -246,19 +261,18 @@ fn bounds(vertices: &[PixelVertex; 3], viewport: &Viewport) -> [Rect; 2] {
 #[inline(never)]
 fn span(vertices: &[PixelVertex; 3], axis: usize, sign: i32, size: i32) -> [i32; 2] {
     let (mut least, mut most) = (size, -1);
-    for v in vertices {
+    for v in rolled(vertices) {
         if sign * v.point[2] > 0 {
             let first = if axis == 0 { v.first[0] } else { v.first[1] };
             least = least.min(first);
             most = most.max(first);
         }
-        black_box(());
     }
     if most < 0 {
         return [0, 0];
     }
     let (mut low, mut high) = (least, most);
-    for v in vertices {
+    for v in rolled(vertices) {
         let w = sign * v.point[2];
         if w <= 0 {
             let position = i64::from(sign * if axis == 0 { v.point[0] } else { v.point[1] });
@@ -269,7 +283,6 @@ fn span(vertices: &[PixelVertex; 3], axis: usize, sign: i32, size: i32) -> [i32;
             }
             high = high.max(if beyond(most + 1) > 0 { size } else { size.min(most + 1) });
         }
-        black_box(());
     }
     [low, high]
 }

@@ -39,21 +39,10 @@ use crate::setup::{EdgeFunction, Setup};
 use crate::span::Span;
 use crate::vertex::{Outside, Rect, Snap, Vertex};
 use core::hint::black_box;
-use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+use core::ops::{AddAssign, SubAssign};
 
 /// An integer wide enough for an edge function over the screen.
-pub(crate) trait EdgeInt:
-    Copy
-    + Ord
-    + From<i32>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Neg<Output = Self>
-    + AddAssign
-    + SubAssign
-{
-}
+pub(crate) trait EdgeInt: Copy + Ord + Default + AddAssign + SubAssign {}
 
 impl EdgeInt for i64 {}
 impl EdgeInt for i128 {}
@@ -61,32 +50,17 @@ impl EdgeInt for i128 {}
 /// One edge on one row: `x` is the first column of the box with `value + (column - x) a >= 0`, or
 /// the box's end.
 #[derive(Clone, Copy, Debug)]
-struct Edge<I> {
-    a: I,
-    b: I,
-    value: I,
+pub(crate) struct Edge<I> {
+    plane: HalfPlane<I>,
     x: i32,
-    /// Whether the interval begins at `x`, or ends before it.
-    begins: bool,
 }
 
 impl<I: EdgeInt> Edge<I> {
-    /// The edge on the row before the first of `bounds`, not looked at yet, from the value at the first pixel.
-    #[inline]
-    fn new(edge: HalfPlane<I>, bounds: &Rect) -> Self {
-        let zero = I::from(0);
-        let HalfPlane { a, b, value } = edge;
-        let (begins, x) = (a >= zero, bounds.x0);
-        // Of an end this is of `-E - 1`.
-        let (a, b, value) = if begins { (a, b, value) } else { (-a, -b, -value - I::from(1)) };
-        Self { a, b, value: value - b, x, begins }
-    }
-
     /// Goes `rows` further, and takes what the edge leaves of a span on that row. Not inlined: few triangles need it.
     #[inline(never)]
     fn follow(&mut self, rows: i32, bounds: &Rect, span: &mut Span) {
-        let zero = I::from(0);
-        let Self { a, b, mut value, mut x, begins } = *self;
+        let zero = I::default();
+        let Self { plane: HalfPlane { a, b, mut value, begins }, mut x } = *self;
         for _ in 0..rows {
             value += b;
             black_box(());
@@ -101,7 +75,7 @@ impl<I: EdgeInt> Edge<I> {
             x -= 1;
             black_box(());
         }
-        (self.value, self.x) = (value, x);
+        (self.plane.value, self.x) = (value, x);
         if begins {
             span.x0 = span.x0.max(x);
         } else {
@@ -110,36 +84,36 @@ impl<I: EdgeInt> Edge<I> {
     }
 }
 
+/// Three edges before the first row of a box.
+pub(crate) type Edges = [Edge<i64>; 3];
+
+/// The edges of `setup` (already mirrored for the part behind).
+#[inline]
+pub(crate) fn edges(setup: &Setup, bounds: &Rect) -> Edges {
+    let [a, b, c] = &setup.edges;
+    [biased(a, bounds), biased(b, bounds), biased(c, bounds)]
+}
+
 /// Three edges, row by row.
-#[derive(Clone, Copy, Debug)]
-struct Walk {
-    edges: [Edge<i64>; 3],
+#[derive(Debug)]
+struct Walk<'a> {
+    /// Lent, as a move would be a copy.
+    edges: &'a mut Edges,
     bounds: Rect,
     y: i32,
 }
 
-impl Walk {
-    #[inline(never)]
-    fn new(setup: &Setup, bounds: Rect) -> Self {
-        let none = Edge { a: 0, b: 0, value: 0, x: 0, begins: true };
-        let mut walk = Self { edges: [none; 3], bounds, y: bounds.y0 };
-        for (edge, function) in walk.edges.iter_mut().zip(&setup.edges) {
-            *edge = Edge::new(biased(function, bounds.x0, bounds.y0), &bounds);
-            black_box(());
-        }
-        walk
-    }
-
+impl Walk<'_> {
     /// The next row that is covered.
     #[inline(never)]
     fn next(&mut self) -> Option<Span> {
         while self.y < self.bounds.y1 {
             let mut span = Span { y: self.y, x0: self.bounds.x0, x1: self.bounds.x1 };
             self.y += 1;
-            for edge in &mut self.edges {
-                edge.follow(1, &self.bounds, &mut span);
-                black_box(());
-            }
+            let [first, second, third] = &mut *self.edges;
+            first.follow(1, &self.bounds, &mut span);
+            second.follow(1, &self.bounds, &mut span);
+            third.follow(1, &self.bounds, &mut span);
             if span.x0 < span.x1 {
                 return Some(span);
             }
@@ -168,13 +142,15 @@ impl<const P: usize> ClipWalk<P> {
         outside: Outside,
     ) -> Self {
         let mut walk = Self { hither: None, planes: [None; P], bounds, y: bounds.y0 - 1 };
-        let at = (bounds.x0, bounds.y0);
+        let at = (bounds.x0, walk.y);
         if let Some(hither) = hither.filter(|_| outside.0 & Outside::HITHER != 0) {
-            walk.hither = Some(Edge::new(hither_edge(setup, vertices, hither, at), &bounds));
+            let plane = hither_edge(setup, vertices, hither, at);
+            walk.hither = Some(Edge { plane, x: bounds.x0 });
         }
         for (i, edge) in walk.planes.iter_mut().enumerate() {
             if outside.0 & (Outside::FIRST_PLANE << i) != 0 {
-                *edge = Some(Edge::new(plane_edge(setup, vertices, i, at), &bounds));
+                let plane = plane_edge(setup, vertices, i, at);
+                *edge = Some(Edge { plane, x: bounds.x0 });
             }
         }
         walk
@@ -194,25 +170,33 @@ impl<const P: usize> ClipWalk<P> {
 /// The spans of a triangle inside a box, from the top: of any triangle, cut or not.
 #[derive(Debug)]
 pub(crate) struct Spans<'a, const P: usize> {
-    edges: Walk,
+    edges: Walk<'a>,
     /// Lent: it is large, and few triangles are cut.
     clip: Option<&'a mut ClipWalk<P>>,
 }
 
 impl<'a, const P: usize> Spans<'a, P> {
-    /// Spans of `setup` (already mirrored for the part behind) in `bounds`, cut by `clip`.
+    /// Spans in `bounds`, cut by `clip`.
     #[inline]
-    pub(crate) fn new(setup: &Setup, bounds: Rect, clip: Option<&'a mut ClipWalk<P>>) -> Self {
-        Self { edges: Walk::new(setup, bounds), clip }
+    pub(crate) fn new(
+        edges: &'a mut Edges,
+        bounds: Rect,
+        clip: Option<&'a mut ClipWalk<P>>,
+    ) -> Self {
+        Self { edges: Walk { edges, bounds, y: bounds.y0 }, clip }
     }
 }
 
-/// An edge from a pixel on, with the fill rule made part of it: covered is `>= 0`.
-#[inline]
-fn biased(edge: &EdgeFunction, x: i32, y: i32) -> HalfPlane<i64> {
+/// An edge before the first row of a box, with the fill rule made part of it: covered is `>= 0`.
+#[inline(never)]
+fn biased(edge: &EdgeFunction, bounds: &Rect) -> Edge<i64> {
     let EdgeFunction { a, b, .. } = *edge;
+    let begins = a >= 0;
     let top_or_left = a > 0 || (a == 0 && b > 0);
-    HalfPlane { a, b, value: edge.at(x, y) - i64::from(!top_or_left) }
+    let value = edge.at(bounds.x0, bounds.y0 - 1) - i64::from(!top_or_left);
+    // `!v` is `-v - 1`.
+    let (a, b, value) = if begins { (a, b, value) } else { (-a, -b, !value) };
+    Edge { plane: HalfPlane { a, b, value, begins }, x: bounds.x0 }
 }
 
 impl<const P: usize> Iterator for Spans<'_, P> {
@@ -241,12 +225,14 @@ mod tests {
 
     /// The walk of an edge against its value at every column.
     fn follows(a: i64, b: i64, c: i64) {
-        let at = |x: i32, y: i32| a * i64::from(x) + b * i64::from(y) + c;
-        let mut walk = Edge::new(HalfPlane { a, b, value: at(BOX.x0, BOX.y0) }, &BOX);
+        let edge = EdgeFunction { a, b, c };
+        let mut walk = biased(&edge, &BOX);
         for y in BOX.y0..BOX.y1 {
             let mut span = Span { y, x0: BOX.x0, x1: BOX.x1 };
             walk.follow(1, &BOX, &mut span);
-            let inside: Vec<i32> = (BOX.x0..BOX.x1).filter(|&x| at(x, y) >= 0).collect();
+            let top_or_left = a > 0 || (a == 0 && b > 0);
+            let covers = |x: i32| edge.at(x, y) > 0 || (top_or_left && edge.at(x, y) == 0);
+            let inside: Vec<i32> = (BOX.x0..BOX.x1).filter(|&x| covers(x)).collect();
             assert_eq!((span.x0..span.x1).collect::<Vec<_>>(), inside, "{a} {b} {c} row {y}");
         }
     }
@@ -265,11 +251,12 @@ mod tests {
     #[test]
     fn planes_skip_rows_with_the_triangle() {
         let at = |x: i32, y: i32| i128::from(3 * x - 5 * y + 1);
-        let first = at(BOX.x0, BOX.y0);
-        let hither = Edge::new(HalfPlane { a: 3, b: -5, value: first }, &BOX);
-        let plane = Edge::new(HalfPlane { a: -1, b: 0, value: 9 - i128::from(BOX.x0) }, &BOX);
-        let mut walk =
-            ClipWalk { hither: Some(hither), planes: [Some(plane)], bounds: BOX, y: BOX.y0 - 1 };
+        let (x, y) = (BOX.x0, BOX.y0 - 1);
+        let begins = HalfPlane { a: 3, b: -5, value: at(x, y), begins: true };
+        // Up to column 9.
+        let ends = HalfPlane { a: 1, b: 0, value: i128::from(x) - 10, begins: false };
+        let [hither, plane] = [begins, ends].map(|plane| Some(Edge { plane, x }));
+        let mut walk = ClipWalk { hither, planes: [plane], bounds: BOX, y };
         for y in [1, 2, 6, 11] {
             let mut span = Span { y, x0: 2, x1: 14 };
             walk.cut(&mut span);

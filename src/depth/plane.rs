@@ -97,7 +97,7 @@ impl DepthPlane {
     ) -> Self {
         let full = Scale::of(((1 << bits) - 1) << (32 - bits)).times(setup.inverse);
         let values = vertices.map(scaled_z);
-        let steps = setup.edges.map(|edge| edge.a);
+        let steps = setup.across();
         let (weights, step) = if outside.0 & Outside::STEEP == 0 {
             let values = values.map(|value| value.times(full));
             let ([u, v, w], [x, y, z]) = (values, steps);
@@ -105,7 +105,7 @@ impl DepthPlane {
             let factor = |v: Signed| (Factor::new(v.scale, TERM_BITS), v.negative);
             (Weights::Each(values.map(factor)), step)
         } else {
-            let (values, exponent) = align(values);
+            let (values, exponent) = align(&values);
             let scale = full.times(Scale::power_of_two(exponent));
             (Weights::Sum(values, scale), sum(&values, scale, steps))
         };
@@ -174,7 +174,7 @@ impl Weights {
 /// The running value of an exact sum, rounded, saturating. Not inlined: few triangles need it.
 #[inline(never)]
 fn sum(values: &[i64; 3], scale: Scale, edges: [i64; 3]) -> i64 {
-    let (sum, exponent) = narrowed(combine(values, edges));
+    let (sum, exponent) = narrowed(combine(values, &edges));
     scale.apply(sum, exponent)
 }
 

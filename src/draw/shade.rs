@@ -8,7 +8,7 @@ use crate::interpolation::{BLOCK, Correction, Joint, Mode, Run, Varyings};
 use crate::math::SMALL_CORE;
 use crate::setup::{Setup, Tier};
 use crate::span::Span;
-use crate::traversal::{ClipWalk, Spans};
+use crate::traversal::{ClipWalk, Spans, edges};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
@@ -50,7 +50,8 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
-        for span in Spans::new(setup, bounds, clip) {
+        let mut edges = edges(setup, &bounds);
+        for span in Spans::new(&mut edges, bounds, clip) {
             self.draw_span(setup, span, shading);
         }
     }

@@ -25,6 +25,8 @@
 use crate::math::{low, signed, unsigned};
 use crate::setup::{Corner, Place};
 use crate::vertex::Rect;
+#[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
+use core::hint::black_box;
 
 /// An edge on one row.
 pub(crate) trait Side: Copy + core::fmt::Debug {
@@ -99,8 +101,26 @@ impl Line {
                 v * i64::from(inverse) + ((v * i64::from(more)) >> 14)
             });
         }
-        [e, dx].map(|v| (i64::from(v) << 32).checked_div_euclid(i64::from(dy)).unwrap_or(0))
+        [e, dx].map(|v| divided(v, dy))
     }
+}
+
+/// `v 2^32 / d`, floored, for `d` of 1 to 2^20: in digits of at most 12 bits, as a division of 64 bits is a large
+/// function.
+#[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
+#[inline(never)]
+fn divided(v: i32, d: i32) -> i64 {
+    let whole = v.checked_div_euclid(d).unwrap_or(0);
+    let (d, mut rest) = (unsigned(d), unsigned(v.wrapping_sub(whole.wrapping_mul(d))));
+    let mut quotient = i64::from(whole);
+    for bits in [12, 12, 8] {
+        rest <<= bits;
+        let digit = rest.checked_div(d).unwrap_or(0);
+        rest -= digit * d;
+        quotient = (quotient << bits) + i64::from(digit);
+        black_box(());
+    }
+    quotient
 }
 
 #[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
@@ -372,6 +392,17 @@ fn walk(n: i32, d: i32) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn quotients_by_digits_are_quotients() {
+        for d in (1..40).chain((0..40).map(|i| (1 << 20) - i)).chain((4..20).map(|n| 1 << n)) {
+            let ends = [0, 1, d - 1, d, 3 * d, (1 << 20) - 1, 1 << 20].into_iter();
+            for v in ends.chain((0..100).map(|i| i * 10_477)).flat_map(|v| [v, -v]) {
+                let exact = (i64::from(v) << 32).div_euclid(i64::from(d));
+                assert_eq!(divided(v, d), exact, "{v} / {d}");
+            }
+        }
+    }
 
     #[test]
     fn quotients_by_additions_are_quotients() {

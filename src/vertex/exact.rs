@@ -69,6 +69,23 @@ pub(crate) fn first_pixel([x, y, w]: [i32; 3], viewport: &Viewport) -> [i32; 2] 
     [first(x + w, viewport.width), first(w - y, viewport.height)]
 }
 
+/// [`first_pixel`] in less code.
+#[inline]
+pub(crate) fn any_first_pixel([x, y, w]: [i32; 3], viewport: &Viewport) -> [i32; 2] {
+    let (x, y, w) = if w < 0 { (-x, -y, -w) } else { (x, y, w) };
+    if w == 0 {
+        return [0, 0];
+    }
+    [any_first_centre(x + w, w, viewport.width), any_first_centre(w - y, w, viewport.height)]
+}
+
+/// [`first_centre`] with a reciprocal of its own.
+#[inline(never)]
+fn any_first_centre(u: i32, w: i32, side: i32) -> i32 {
+    let (divisor, zeros) = normalized(unsigned(w));
+    first_centre(u, w, [zeros, reciprocal_estimate(divisor)], side)
+}
+
 /// The first pixel whose centre is at or beyond `side u / (2 w)`: `ceil(side u / (2 w) - 1/2)`, in
 /// `0 ..= side`.
 ///

@@ -11,7 +11,7 @@ use super::{
     ClipVertex, PixelVertex, Position, ScaleOf, Snap, Snapped, Viewport, depth_from, shift_round,
     shift_to_fit,
 };
-use crate::math::{SMALL_CORE, Scale, bits, high, low, normalized, reciprocal, unsigned};
+use crate::math::{SMALL_CORE, Scale, bits, low, normalized, reciprocal, unsigned};
 
 /// A quick tier with `BITS` subpixel bits: 4 or 8. Coverage is exact on the snapped vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -197,32 +197,43 @@ fn quotient<const BITS: u32>(n: i64, d: u32, inverse: u32) -> i32 {
 
 /// Keeps a vertex homogeneous, in clip space: each coordinate within half a grid step of the scaled
 /// vertex, below `2^14` in magnitude.
+#[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the exponent is -31 - 18 - 34 to -17")]
 fn homogeneous<const BITS: u32>(v: &ClipVertex) -> QuickPosition<BITS> {
     let [x, y, _, w] = v.raw;
-    let largest = [x, y, w].map(i32::unsigned_abs);
+    let largest = x.unsigned_abs().max(y.unsigned_abs()).max(w.unsigned_abs());
     let mut shift = shift_to_fit([x, y, w], HOMOGENEOUS_BITS);
     let limit = (1 << HOMOGENEOUS_BITS) - 1;
-    let reaches = |shift: i32| largest.iter().any(|&v| rounded(v, shift) > limit);
-    if reaches(shift) {
+    if rounded(largest, shift) > limit {
         shift -= 1;
     }
     let scale = Scale::power_of_two(shift - i32::from(v.shift));
     QuickPosition {
-        x: shift_round(x, shift),
-        y: shift_round(y, shift),
-        w: shift_round(w, shift),
+        x: shifted(x, shift),
+        y: shifted(y, shift),
+        w: shifted(w, shift),
         mantissa: scale.mantissa,
         exponent: scale.exponent as i8,
         projected: false,
     }
 }
 
+/// [`shift_round`], not inlined: few vertices need it.
+#[inline(never)]
+fn shifted(v: i32, shift: i32) -> i32 {
+    shift_round(v, shift)
+}
+
 /// A magnitude after [`shift_round`], rounded up on a half.
 #[inline]
 #[expect(clippy::cast_sign_loss, reason = "a shift that was tested for its sign")]
 fn rounded(v: u32, shift: i32) -> u32 {
-    if shift >= 0 { v << shift } else { high((u64::from(v) << 32 >> -shift as u32) + (1 << 31)) }
+    if shift >= 0 {
+        v << shift
+    } else {
+        let shift = -shift as u32;
+        (v >> shift) + ((v >> (shift - 1)) & 1)
+    }
 }
 
 impl<const BITS: u32> QuickPosition<BITS> {
@@ -238,7 +249,7 @@ impl<const BITS: u32> QuickPosition<BITS> {
             let first = [first(x).min(width).max(0), first(y).min(height).max(0)];
             PixelVertex { point: [x, y, w], first }
         } else {
-            PixelVertex::of_clip([x, y, w], exact::first_pixel([x, y, w], viewport), viewport)
+            PixelVertex::of_clip([x, y, w], exact::any_first_pixel([x, y, w], viewport), viewport)
         }
     }
 }

@@ -117,7 +117,10 @@ fn snapped<'v, T: Preset, D: DepthTest>(
     let mut count = 0;
     corners(workload, |number, corners| {
         if let Some(triangle) = triangles.get_mut(number) {
-            *triangle = corners.map(|corner| frame.snap(&corner.clip(), []));
+            // In place: from an array of its own it would be copied.
+            for (vertex, corner) in triangle.iter_mut().zip(corners) {
+                *vertex = frame.snap(&corner.clip(), []);
+            }
             count = number + 1;
         }
     });
@@ -170,7 +173,9 @@ fn shaded<T: Preset, F: Fragment<Rgb565, N>, const N: usize>(
     let mut frame = deep::<T>(buffers, HITHER)?;
     let mut vertices = [Vertex::<T, N>::EMPTY; 3];
     corners(workload, |_, [a, b, c]| {
-        vertices = [(a, u), (b, v), (c, w)].map(|(a, u)| frame.snap(&a.clip(), u));
+        for (vertex, (a, u)) in vertices.iter_mut().zip([(a, u), (b, v), (c, w)]) {
+            *vertex = frame.snap(&a.clip(), u);
+        }
     });
     Ok(ticks(clock, || draw_shaded(&mut frame, &vertices, fragment)))
 }
