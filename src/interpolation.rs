@@ -158,7 +158,7 @@ struct Varying {
 impl Varying {
     /// From the vertices' values and the weights' steps along a row. Not inlined: its registers are spilt once.
     #[inline(never)]
-    fn new([u0, u1, u2]: [i32; 3], weight_steps: [i64; 3]) -> Self {
+    fn new([u0, u1, u2]: [i32; 3], weight_steps: &[i64; 3]) -> Self {
         let difference = |u: i32| i64::from(u) - i64::from(u0);
         let both = [difference(u1), difference(u2)];
         let largest = both[0].unsigned_abs().max(both[1].unsigned_abs());
@@ -171,7 +171,7 @@ impl Varying {
 
     /// `sum((u_i - u_0) weight_i)`, Q30, saturated. Weights are Q32, below 1 + 2^-20 in magnitude.
     #[inline]
-    fn numerator(&self, [_, b1, b2]: [i64; 3]) -> i32 {
+    fn numerator(&self, [_, b1, b2]: &[i64; 3]) -> i32 {
         let [d1, d2] = self.differences.map(i64::from);
         saturate(shr_round(d1 * b1 + d2 * b2, 32))
     }
@@ -183,7 +183,13 @@ impl Varying {
             let offset = ((quotient >> shift) + 1) >> 1;
             return I16F16::from_bits(self.base.saturating_add(offset));
         }
-        // Differences of more than 2^29 raw steps, which are 8192.
+        self.wide_value(quotient)
+    }
+
+    /// [`value`](Self::value) for differences of more than 2^29 raw steps, which are 8192.
+    #[cold]
+    #[inline(never)]
+    fn wide_value(&self, quotient: i32) -> I16F16 {
         let offset = shr_round(i64::from(quotient) << self.exponent, 30);
         I16F16::from_bits(saturate(i64::from(self.base) + offset))
     }
@@ -271,25 +277,19 @@ impl<const N: usize> Varyings<N> {
         } else {
             Mode::Divided
         };
-        let scale = vertices.map(|v| {
-            let scale = if mode == Mode::Linear {
-                Scale::of(u64::from(v.position.scaled_w().unsigned_abs()))
-            } else {
-                let ScaleOf(k) = v.position.scale();
-                k.times(Scale::of(u64::from(hither.raw().unsigned_abs())))
-            };
-            scale.times(setup.inverse)
-        });
-        let ([s0, s1, s2], [e0, e1, e2]) = (scale, setup.across());
+        let linear = mode == Mode::Linear;
+        let [a, b, c] = vertices;
+        let weight = |vertex| weight_scale(vertex, linear, hither).times(setup.inverse);
+        let ([s0, s1, s2], [e0, e1, e2]) = ([weight(a), weight(b), weight(c)], setup.across());
         let steps = [weight_step(s0, e0), weight_step(s1, e1), weight_step(s2, e2)];
         let q_step = saturate(shr_round(steps[0] + steps[1] + steps[2], 2));
-        let [v0, v1, v2] = vertices.map(|v| v.varyings);
         let mut each = [Varying::default(); N];
-        for (((varying, u0), u1), u2) in each.iter_mut().zip(v0).zip(v1).zip(v2) {
-            *varying = Varying::new([u0, u1, u2].map(I16F16::to_bits), steps);
+        let values = a.varyings.iter().zip(&b.varyings).zip(&c.varyings);
+        for (varying, ((u0, u1), u2)) in each.iter_mut().zip(values) {
+            *varying = Varying::new([u0.to_bits(), u1.to_bits(), u2.to_bits()], &steps);
         }
-        let scale = scale.map(|scale| Factor::new(scale, 0));
-        Self { mode, fallback: C::AFFINE && mode != Mode::Linear, scale, q_step, each }
+        let scale = [Factor::new(s0, 0), Factor::new(s1, 0), Factor::new(s2, 0)];
+        Self { mode, fallback: C::AFFINE && !linear, scale, q_step, each }
     }
 
     /// How they run along a row.
@@ -305,19 +305,20 @@ impl<const N: usize> Varyings<N> {
     }
 
     /// Numerators and `q` at a covered pixel.
-    #[inline]
+    #[inline(never)]
     fn at(&self, setup: &Setup, x: i32, y: i32) -> ([i32; N], i32) {
-        let [w0, w1, w2] = weights(&self.scale, setup.edges_at(x, y)).map(i64::from);
-        let q = saturate((w0 + w1 + w2 + 2) >> 2);
-        (self.each.map(|v| v.numerator([w0, w1, w2])), q)
+        let ([s0, s1, s2], [e0, e1, e2]) = (self.scale, setup.edges_at(x, y));
+        let weights = [weight(s0, e0), weight(s1, e1), weight(s2, e2)];
+        let q = saturate((weights[0] + weights[1] + weights[2] + 2) >> 2);
+        (self.each.each_ref().map(|v| v.numerator(&weights)), q)
     }
 
-    /// Quotients at a covered pixel.
+    /// Quotients at a covered pixel, where they are linear on the screen or in pieces.
     #[inline]
-    fn quotients(&self, setup: &Setup, x: i32, y: i32) -> [i32; N] {
+    fn quotients<C: Correction>(&self, setup: &Setup, x: i32, y: i32) -> [i32; N] {
         let (n, q) = self.at(setup, x, y);
         let mut quotients = n;
-        if self.mode != Mode::Linear {
+        if C::EVERY > 1 && self.mode != Mode::Linear {
             let inverse = Inverse::new(q);
             quotients = n.map(|n| inverse.quotient(n));
         }
@@ -331,17 +332,17 @@ impl<const N: usize> Varyings<N> {
     /// where there is `more` of the span it becomes where this one ends. Not inlined: the pixel loop after it wants
     /// the registers.
     #[inline(never)]
-    pub(crate) fn ramp(
+    pub(crate) fn ramp<C: Correction>(
         &self,
         setup: &Setup,
         block: Span,
         more: bool,
         joint: &mut Joint<N>,
     ) -> Ramp<N> {
-        let at = |x: i32| self.quotients(setup, x, block.y);
+        let at = |x: i32| self.quotients::<C>(setup, x, block.y);
         let quotients = joint.take().unwrap_or_else(|| at(block.x0));
         let mut steps = self.each.map(|v| v.step);
-        if self.mode != Mode::Linear {
+        if C::EVERY > 1 && self.mode != Mode::Linear {
             // To the first pixel of the next piece, or the last of this one.
             let end = if more { block.x1 } else { block.x1 - 1 };
             let last = if end > block.x0 { at(end) } else { quotients };
@@ -398,20 +399,33 @@ const fn inverses() -> [u32; 65] {
     table
 }
 
-/// Weights from edge functions at a covered pixel, Q32, below 1.
+/// The weight of an edge function at a covered pixel, Q32, below 1.
 #[inline]
-fn weights(scale: &[Factor; 3], edges: [i64; 3]) -> [u32; 3] {
-    let ([s0, s1, s2], [e0, e1, e2]) = (scale, edges);
-    let weight = |product: i64| u32::try_from(product >> 29).unwrap_or(u32::MAX);
-    [weight(s0.apply(e0)), weight(s1.apply(e1)), weight(s2.apply(e2))]
+fn weight(scale: Factor, edge: i64) -> i64 {
+    i64::from(u32::try_from(scale.apply(edge) >> 29).unwrap_or(u32::MAX))
 }
 
 /// A weight's step a pixel, Q32. On a row of two covered pixels or more it is at most 1 in magnitude;
 /// a steeper step is never taken, so it is clamped.
-#[inline]
+#[inline(never)]
 fn weight_step(scale: Scale, edge: i64) -> i64 {
     const LIMIT: i64 = (1 << 32) - 1;
     scale.apply(edge, 32).clamp(-LIMIT, LIMIT)
+}
+
+/// The weight of a unit of a vertex's edge function, in units of the setup's inverse: `k w` where varyings are linear on
+/// the screen, otherwise `k h`.
+#[inline(never)]
+fn weight_scale<T: Snap, const N: usize, const P: usize>(
+    vertex: &Vertex<T, N, P>,
+    linear: bool,
+    hither: Hither,
+) -> Scale {
+    if linear {
+        return Scale::of(u64::from(vertex.position.scaled_w().unsigned_abs()));
+    }
+    let ScaleOf(k) = vertex.position.scale();
+    k.times(Scale::of(u64::from(hither.raw().unsigned_abs())))
 }
 
 /// Whether the vertices have the same `w`, to the bit, so that `q` is constant.
@@ -513,9 +527,9 @@ mod tests {
     #[test]
     fn constant_varyings_stay_constant() {
         for u in [i32::MIN, -1, 0, 1, i32::MAX] {
-            let varying = Varying::new([u; 3], [1 << 32, -(1 << 31), 77]);
+            let varying = Varying::new([u; 3], &[1 << 32, -(1 << 31), 77]);
             for weights in [[0, 0, 0], [1 << 32, 0, 0], [5, 1 << 31, 1 << 31]] {
-                let n = varying.numerator(weights) + varying.step;
+                let n = varying.numerator(&weights) + varying.step;
                 assert_eq!(varying.value(quotient(n, 12_345)).to_bits(), u);
             }
         }
@@ -523,9 +537,9 @@ mod tests {
 
     #[test]
     fn differences_of_the_whole_range_reach_both_ends() {
-        let varying = Varying::new([i32::MIN, i32::MAX, 0], [0; 3]);
+        let varying = Varying::new([i32::MIN, i32::MAX, 0], &[0; 3]);
         let at = |b1: i64, b2: i64| {
-            let n = varying.numerator([0, b1, b2]);
+            let n = varying.numerator(&[0, b1, b2]);
             i64::from(varying.value(n).to_bits())
         };
         assert!((at(1 << 32, 0) - i64::from(i32::MAX)).abs() <= 4);

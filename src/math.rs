@@ -301,15 +301,15 @@ pub(crate) struct Factor {
 
 impl Factor {
     /// A real whose products are at most `2^whole_bits`.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn new(scale: Scale, whole_bits: i32) -> Self {
         let shift = -(scale.exponent + 62 - whole_bits);
         Self { mantissa: scale.mantissa, shift: shift.clamp(-62, 63) }
     }
 
     /// The product with `e`, in units of `2^(whole_bits - 61)`, floored; of a negative `e` 0, and beyond
-    /// twice the bound saturated.
-    #[inline]
+    /// twice the bound saturated. Not inlined: few triangles need it.
+    #[inline(never)]
     #[expect(clippy::cast_possible_wrap, reason = "a bit less than 64 where it is cast")]
     pub(crate) fn apply(self, e: i64) -> i64 {
         let e = e.max(0).unsigned_abs();
@@ -348,7 +348,7 @@ impl Signed {
     }
 
     /// [`Scale::apply`] with the sign.
-    #[inline]
+    #[inline(never)]
     pub(crate) const fn apply(self, v: i64, fraction: i32) -> i64 {
         let value = self.scale.apply(v, fraction);
         if self.negative { -value } else { value }

@@ -61,12 +61,32 @@ pub(crate) struct DepthPlane {
 /// What turns edge functions into running values.
 #[derive(Clone, Copy, Debug)]
 enum Weights {
-    /// Running units a unit of each `E_i`, where none of the three terms is large: a factor, and
-    /// whether it is negative.
-    Each([(Factor, bool); 3]),
+    /// Running units a unit of each `E_i`, where none of the three terms is large.
+    Each([Term; 3]),
     /// `k_i z_i` as integers on one scale, and the running units of their sum, where terms may
     /// cancel: the sum is exact, and scaled once.
     Sum([i64; 3], Scale),
+}
+
+/// Running units a unit of an edge function: a factor, and whether it is negative.
+#[derive(Clone, Copy, Debug)]
+struct Term {
+    factor: Factor,
+    negative: bool,
+}
+
+impl Term {
+    #[inline]
+    fn new(value: Signed) -> Self {
+        Self { factor: Factor::new(value.scale, TERM_BITS), negative: value.negative }
+    }
+
+    /// The running units where the edge function is `e`, rounded.
+    #[inline]
+    fn apply(&self, e: i64) -> i64 {
+        let product = shr_round(self.factor.apply(e), (61 - TERM_BITS).unsigned_abs());
+        if self.negative { -product } else { product }
+    }
 }
 
 /// Each of three terms that are not summed exactly is at most `2^TERM_BITS` running units: 4 of the
@@ -96,18 +116,18 @@ impl DepthPlane {
         outside: Outside,
     ) -> Self {
         let full = Scale::of(((1 << bits) - 1) << (32 - bits)).times(setup.inverse);
-        let values = vertices.map(scaled_z);
+        let [a, b, c] = vertices;
+        let values = [scaled_z(a), scaled_z(b), scaled_z(c)];
         let steps = setup.across();
         let (weights, step) = if outside.0 & Outside::STEEP == 0 {
-            let values = values.map(|value| value.times(full));
             let ([u, v, w], [x, y, z]) = (values, steps);
+            let [u, v, w] = [u.times(full), v.times(full), w.times(full)];
             let step = u.apply(x, 0).saturating_add(v.apply(y, 0)).saturating_add(w.apply(z, 0));
-            let factor = |v: Signed| (Factor::new(v.scale, TERM_BITS), v.negative);
-            (Weights::Each(values.map(factor)), step)
+            (Weights::Each([Term::new(u), Term::new(v), Term::new(w)]), step)
         } else {
             let (values, exponent) = align(&values);
             let scale = full.times(Scale::power_of_two(exponent));
-            (Weights::Sum(values, scale), sum(&values, scale, steps))
+            (Weights::Sum(values, scale), sum(&values, scale, &steps))
         };
         // A steeper step belongs to a single pixel, and is not taken.
         let step = step.clamp(-STEEPEST, STEEPEST);
@@ -118,7 +138,7 @@ impl DepthPlane {
     #[inline(never)]
     pub(crate) fn run(&self, setup: &Setup, span: Span) -> DepthRun {
         let edges = setup.edges_at(span.x0, span.y);
-        let first = self.weights.apply(edges).saturating_add(self.half);
+        let first = self.weights.apply(&edges).saturating_add(self.half);
         let pixels = i64::from(span.x1 - 1 - span.x0);
         let last = first.saturating_add(self.step * pixels);
         let fits = |v: i64| v >= 0 && v <= i64::from(u32::MAX);
@@ -127,7 +147,7 @@ impl DepthPlane {
 }
 
 /// `k z` of a vertex.
-#[inline]
+#[inline(never)]
 fn scaled_z<T: Snap, const N: usize, const P: usize>(v: &Vertex<T, N, P>) -> Signed {
     if v.outside.0 & Outside::RANGED != 0 {
         // z / w times k w.
@@ -156,15 +176,11 @@ impl DepthRun {
 impl Weights {
     /// The running value where the edge functions are `edges`, rounded, saturating.
     #[inline]
-    fn apply(&self, edges: [i64; 3]) -> i64 {
+    fn apply(&self, edges: &[i64; 3]) -> i64 {
         match self {
             Self::Each([u, v, w]) => {
-                let [x, y, z] = edges;
-                let term = |&(factor, negative): &(Factor, bool), e: i64| {
-                    let product = shr_round(factor.apply(e), (61 - TERM_BITS).unsigned_abs());
-                    if negative { -product } else { product }
-                };
-                term(u, x) + term(v, y) + term(w, z)
+                let [x, y, z] = *edges;
+                u.apply(x) + v.apply(y) + w.apply(z)
             }
             Self::Sum(values, scale) => sum(values, *scale, edges),
         }
@@ -173,8 +189,8 @@ impl Weights {
 
 /// The running value of an exact sum, rounded, saturating. Not inlined: few triangles need it.
 #[inline(never)]
-fn sum(values: &[i64; 3], scale: Scale, edges: [i64; 3]) -> i64 {
-    let (sum, exponent) = narrowed(combine(values, &edges));
+fn sum(values: &[i64; 3], scale: Scale, edges: &[i64; 3]) -> i64 {
+    let (sum, exponent) = narrowed(combine(values, edges));
     scale.apply(sum, exponent)
 }
 

@@ -109,29 +109,21 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
-        let depth = shading.depths::<D>(setup, block);
-        if D::BITS == 0 || depth.inside {
-            self.draw_from(setup, block, depth, (more, joint), shading);
-        } else {
-            *joint = None;
-            self.draw_saturated(setup, block, shading);
+        if D::BITS == 0 {
+            self.draw_from(setup, block, DepthRun::NONE, (more, joint), shading);
+            return;
         }
-    }
-
-    /// Draws a block of which some depth saturates: each pixel by itself.
-    #[cold]
-    #[inline(never)]
-    fn draw_saturated<F, const N: usize>(
-        &mut self,
-        setup: &Setup,
-        block: Span,
-        shading: &Shading<'_, F, N>,
-    ) where
-        F: Fragment<C::Color, N>,
-    {
-        for pixel in block.blocks(1) {
-            let depth = shading.depths::<D>(setup, pixel);
-            self.draw_from(setup, pixel, depth, (false, &mut None), shading);
+        let mut depth = shading.depths::<D>(setup, block);
+        let inside = depth.inside;
+        if !inside {
+            *joint = None;
+        }
+        // Where some depth saturates each pixel by itself.
+        for piece in block.blocks(if inside { i32::MAX } else { 1 }) {
+            if !inside {
+                depth = shading.depths::<D>(setup, piece);
+            }
+            self.draw_from(setup, piece, depth, (more && inside, &mut *joint), shading);
         }
     }
 
@@ -148,12 +140,13 @@ where
         F: Fragment<C::Color, N>,
     {
         match shading.varyings {
-            None => self.draw_run(block, NoVaryings, depth, shading.fragment),
+            None if N == 0 => self.draw_run(block, NoVaryings, depth, shading.fragment),
+            None => {}
             Some(v) if v.mode() == Mode::Divided && I::EVERY == 1 => {
                 self.draw_run(block, v.divided(setup, block), depth, shading.fragment);
             }
             Some(v) => {
-                let ramp = v.ramp(setup, block, more, joint);
+                let ramp = v.ramp::<I>(setup, block, more, joint);
                 self.draw_run(block, ramp, depth, shading.fragment);
             }
         }

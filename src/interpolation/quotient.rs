@@ -47,12 +47,7 @@ pub(crate) struct Followed<'a, const N: usize> {
 fn nearness<T: Snap, const N: usize, const P: usize>(
     vertices: [&Vertex<T, N, P>; 3],
 ) -> Option<[u32; 3]> {
-    // The mantissa of 1 / w, and its exponent but for a constant.
-    let inverse = vertices.map(|v| {
-        let ScaleOf(k) = v.position.scale();
-        let (divisor, zeros) = normalized(unsigned(v.position.scaled_w()));
-        (reciprocal(divisor), k.exponent + bits(zeros))
-    });
+    let inverse = vertices.map(inverse_w);
     let [(_, a), (_, b), (_, c)] = inverse;
     let top = a.max(b).max(c);
     let q = inverse.map(|(mantissa, exponent)| {
@@ -62,14 +57,22 @@ fn nearness<T: Snap, const N: usize, const P: usize>(
     (a.min(b).min(c) >= LEAST).then_some(q)
 }
 
+/// The mantissa of `1 / w`, and its exponent but for a constant.
+#[inline(never)]
+fn inverse_w<T: Snap, const N: usize, const P: usize>(v: &Vertex<T, N, P>) -> (u32, i32) {
+    let ScaleOf(k) = v.position.scale();
+    let (divisor, zeros) = normalized(unsigned(v.position.scaled_w()));
+    (reciprocal(divisor), k.exponent + bits(zeros))
+}
+
 /// A varying's differences in Q31 of `2^e`, and `u_0` with half a step in `2^(e - 24)` raw steps, and `24 - e`; `None`
 /// where `u_0` is too far from 0 for its fraction.
 ///
 /// Q31 has no 1, and what a plane is off needs room: a difference is at most `1 - 2^-15`, which is within 2^-15.
-#[inline]
+#[inline(never)]
 fn in_own_units(values: [i32; 3]) -> Option<([i32; 2], (i32, u32))> {
     const MOST: i32 = (1 << 30) - (1 << 15);
-    let varying = Varying::new(values, [0; 3]);
+    let varying = Varying::new(values, &[0; 3]);
     // So that u_0 has room beside its fraction.
     let length = 32 - normalized(varying.base.unsigned_abs() | 1).1;
     let e = varying.exponent.max(length.saturating_sub(6));
