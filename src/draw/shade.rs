@@ -50,6 +50,9 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
+        if (N > 0 && shading.varyings.is_none()) || (D::BITS > 0 && shading.depth.is_none()) {
+            return;
+        }
         let mut edges = edges(setup, &bounds);
         for span in Spans::new(&mut edges, bounds, clip) {
             self.draw_span(setup, span, shading);
@@ -119,11 +122,16 @@ where
             *joint = None;
         }
         // Where some depth saturates each pixel by itself.
-        for piece in block.blocks(if inside { i32::MAX } else { 1 }) {
-            if !inside {
-                depth = shading.depths::<D>(setup, piece);
-            }
+        let length = if inside { i32::MAX } else { 1 };
+        let mut rest = block;
+        loop {
+            let piece = Span { x1: rest.x1.min(rest.x0.saturating_add(length)), ..rest };
             self.draw_from(setup, piece, depth, (more && inside, &mut *joint), shading);
+            rest.x0 = piece.x1;
+            if rest.x0 >= rest.x1 {
+                break;
+            }
+            depth = shading.depths::<D>(setup, rest);
         }
     }
 
