@@ -184,6 +184,12 @@ pub(crate) fn reciprocal(m: u32) -> u32 {
     if SMALL_CORE { refined_split(x, m) } else { refined(x, m) }
 }
 
+/// [`reciprocal`] as one function, for what few triangles need.
+#[inline(never)]
+pub(crate) fn shared_reciprocal(m: u32) -> u32 {
+    reciprocal(m)
+}
+
 /// The second Newton step: `x^2 m` against `x`, both in Q17.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "every m was tried: below 2^32")]
@@ -243,6 +249,13 @@ impl Scale {
     #[inline]
     pub(crate) fn reciprocal(self) -> Self {
         Self { mantissa: reciprocal(self.mantissa), exponent: -63 - self.exponent }
+    }
+
+    /// [`Scale::of`], then [`Scale::reciprocal`], as one function.
+    #[inline(never)]
+    pub(crate) fn reciprocal_of(v: u64) -> Self {
+        let Self { mantissa, exponent } = Self::of(v);
+        Self { mantissa: shared_reciprocal(mantissa), exponent: -63 - exponent }
     }
 
     /// `self * other`, truncated.

@@ -68,24 +68,26 @@ enum Weights {
     Sum([i64; 3], Scale),
 }
 
-/// Running units a unit of an edge function: a factor, and whether it is negative.
+/// Running units a unit of an edge function: a factor, and -1 where it is negative, otherwise 0.
 #[derive(Clone, Copy, Debug)]
 struct Term {
     factor: Factor,
-    negative: bool,
+    sign: i32,
 }
 
 impl Term {
     #[inline]
-    fn new(value: Signed) -> Self {
-        Self { factor: Factor::new(value.scale, TERM_BITS), negative: value.negative }
+    fn new(value: &Signed) -> Self {
+        let sign = -i32::from(value.negative);
+        Self { factor: Factor::new(value.scale, TERM_BITS), sign }
     }
 
     /// The running units where the edge function is `e`, rounded.
     #[inline]
     fn apply(&self, e: i64) -> i64 {
         let product = shr_round(self.factor.apply(e), (61 - TERM_BITS).unsigned_abs());
-        if self.negative { -product } else { product }
+        let sign = i64::from(self.sign);
+        (product ^ sign) - sign
     }
 }
 
@@ -119,19 +121,21 @@ impl DepthPlane {
         let [a, b, c] = vertices;
         let values = [scaled_z(a), scaled_z(b), scaled_z(c)];
         let steps = setup.across();
-        let (weights, step) = if outside.0 & Outside::STEEP == 0 {
+        let half = (1i64 << (32 - bits)) >> 1;
+        // A steeper step belongs to a single pixel, and is not taken.
+        let limited = |step: i64| step.clamp(-STEEPEST, STEEPEST);
+        if outside.0 & Outside::STEEP == 0 {
             let ([u, v, w], [x, y, z]) = (values, steps);
             let [u, v, w] = [u.times(full), v.times(full), w.times(full)];
             let step = u.apply(x, 0).saturating_add(v.apply(y, 0)).saturating_add(w.apply(z, 0));
-            (Weights::Each([Term::new(u), Term::new(v), Term::new(w)]), step)
+            let weights = Weights::Each([Term::new(&u), Term::new(&v), Term::new(&w)]);
+            Self { weights, step: limited(step), half }
         } else {
             let (values, exponent) = align(&values);
             let scale = full.times(Scale::power_of_two(exponent));
-            (Weights::Sum(values, scale), sum(&values, scale, &steps))
-        };
-        // A steeper step belongs to a single pixel, and is not taken.
-        let step = step.clamp(-STEEPEST, STEEPEST);
-        Self { weights, step, half: (1i64 << (32 - bits)) >> 1 }
+            let step = limited(sum(&values, scale, &steps));
+            Self { weights: Weights::Sum(values, scale), step, half }
+        }
     }
 
     /// The run of a span. Not inlined: few triangles are drawn by it.

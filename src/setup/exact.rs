@@ -157,7 +157,7 @@ impl Tier for Exact {
     ) -> Option<(Facing, ScaleOf)> {
         let determinant = determinant(vertices);
         let facing = Facing::of(determinant)?;
-        let inverse = Scale::of(determinant.unsigned_abs()).reciprocal();
+        let inverse = Scale::reciprocal_of(determinant.unsigned_abs());
         // sum(E_i w_i) = W H det.
         Some((facing, ScaleOf(inverse.times(viewport.inverse_area))))
     }

@@ -47,7 +47,7 @@ impl<const BITS: u32> Tier for Quick<BITS> {
         let determinant = determinant(in_pixels);
         // y is down: a front face is clockwise here.
         let facing = Facing::of(determinant.wrapping_neg())?;
-        let Scale { mantissa, exponent } = Scale::of(determinant.unsigned_abs()).reciprocal();
+        let Scale { mantissa, exponent } = Scale::reciprocal_of(determinant.unsigned_abs());
         // sum(E_i w_i) is it, with w twice the snapped.
         Some((facing, ScaleOf(Scale { mantissa, exponent: exponent + 1 })))
     }

@@ -50,7 +50,7 @@ impl Slopes {
             low(product(minor, w * side) >> (20 + side_bits))
         };
         let Scale { mantissa, exponent } =
-            Scale::of(determinant.unsigned_abs()).reciprocal().times(viewport.inverse_area);
+            Scale::reciprocal_of(determinant.unsigned_abs()).times(viewport.inverse_area);
         let size = unsigned(bounds.x1 - bounds.x0) | unsigned(bounds.y1 - bounds.y0);
         // 8 - n.
         let to_spare = (8 + normalized(size).1).saturating_sub(31);

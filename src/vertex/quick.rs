@@ -11,7 +11,9 @@ use super::{
     ClipVertex, PixelVertex, Position, ScaleOf, Snap, Snapped, Viewport, depth_from, shift_round,
     shift_to_fit,
 };
-use crate::math::{SMALL_CORE, Scale, bits, low, normalized, reciprocal, unsigned};
+use crate::math::{
+    SMALL_CORE, Scale, bits, low, normalized, reciprocal, shared_reciprocal, unsigned,
+};
 
 /// A quick tier with `BITS` subpixel bits: 4 or 8. Coverage is exact on the snapped vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -160,7 +162,7 @@ fn snap_any<const BITS: u32>(
 #[inline]
 fn project<const BITS: u32>(v: &ClipVertex, across: i64, down: i64) -> QuickPosition<BITS> {
     let (divisor, zeros) = normalized(v.raw[3].unsigned_abs());
-    let inverse = reciprocal(divisor);
+    let inverse = shared_reciprocal(divisor);
     let quotient = |n: i64| quotient::<BITS>(n << zeros, divisor, inverse);
     projected([quotient(across), quotient(down)], inverse, zeros, v.shift)
 }
