@@ -14,6 +14,8 @@
 
 mod exact;
 mod rows;
+#[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
+mod shared;
 mod side;
 
 pub(crate) use exact::Stepped;
@@ -33,6 +35,13 @@ pub(crate) use side::{SMALL, Side, WIDEST, is_small};
 pub(crate) type SmallRows = ShortRows<side::Walked>;
 #[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
 pub(crate) type SmallRows = ShortRows<side::Short>;
+
+/// [`ProjectedSide`] for rows that are filled: not for those that are shaded, whose loop over pixels then has fewer
+/// registers.
+#[cfg(all(target_arch = "arm", not(target_has_atomic = "32")))]
+pub(crate) use side::Digital as FilledSide;
+#[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
+pub(crate) type FilledSide = shared::Shared<side::Line>;
 
 use crate::clip::{HalfPlane, Hither, hither_edge, plane_edge};
 use crate::setup::{EdgeFunction, Setup};

@@ -7,7 +7,7 @@ use crate::framebuffer::Target;
 use crate::interpolation::Correction;
 use crate::math::index;
 use crate::setup::{Outline, Tier};
-use crate::traversal::{ProjectedSide, Rows, Side};
+use crate::traversal::{FilledSide, Rows, Side};
 use crate::vertex::Rect;
 use fixed::types::I16F16;
 
@@ -51,7 +51,7 @@ where
         F: Fragment<C::Color, N>,
     {
         let whole = outline.bounds(T::SUBPIXEL_BITS);
-        self.fill_within::<ProjectedSide, F, N>(&outline, whole, fragment)
+        self.fill_within::<FilledSide, F, N>(&outline, whole, fragment)
     }
 
     /// Fills what the window has of a triangle, whose edges are followed by `S` and whose box is `whole`.
