@@ -210,6 +210,13 @@ impl Varying {
         (i64::from(base) << 32) + (1 << 31)
     }
 
+    /// A quotient's value and its step along a straight line, in raw steps times 2^32. Not inlined: there is one for each
+    /// varying.
+    #[inline(never)]
+    fn line(&self, quotient: i32, step: i32) -> [i64; 2] {
+        [self.start().wrapping_add(self.fixed(quotient)), self.fixed(step)]
+    }
+
     /// A quotient between the vertices', which have 0 and the differences: so every value is between the
     /// vertices', however few bits of `n` and `q` are left.
     #[inline]
@@ -278,18 +285,17 @@ impl<const N: usize> Varyings<N> {
             Mode::Divided
         };
         let linear = mode == Mode::Linear;
-        let [a, b, c] = vertices;
-        let weight = |vertex| weight_scale(vertex, linear, hither).times(setup.inverse);
-        let ([s0, s1, s2], [e0, e1, e2]) = ([weight(a), weight(b), weight(c)], setup.across());
-        let steps = [weight_step(s0, e0), weight_step(s1, e1), weight_step(s2, e2)];
+        let ([a, b, c], [e0, e1, e2]) = (vertices, setup.across());
+        let weight = |vertex, edge| weight_of(vertex, edge, linear, hither, &setup.inverse);
+        let ((s0, step0), (s1, step1), (s2, step2)) = (weight(a, e0), weight(b, e1), weight(c, e2));
+        let steps = [step0, step1, step2];
         let q_step = saturate(shr_round(steps[0] + steps[1] + steps[2], 2));
         let mut each = [Varying::default(); N];
         let values = a.varyings.iter().zip(&b.varyings).zip(&c.varyings);
         for (varying, ((u0, u1), u2)) in each.iter_mut().zip(values) {
             *varying = Varying::new([u0.to_bits(), u1.to_bits(), u2.to_bits()], &steps);
         }
-        let scale = [Factor::new(s0, 0), Factor::new(s1, 0), Factor::new(s2, 0)];
-        Self { mode, fallback: C::AFFINE && !linear, scale, q_step, each }
+        Self { mode, fallback: C::AFFINE && !linear, scale: [s0, s1, s2], q_step, each }
     }
 
     /// How they run along a row.
@@ -356,8 +362,7 @@ impl<const N: usize> Varyings<N> {
         for ((at, ramp_step), ((varying, quotient), step)) in
             ramp.at.iter_mut().zip(&mut ramp.step).zip(each)
         {
-            *at = varying.start().wrapping_add(varying.fixed(quotient));
-            *ramp_step = varying.fixed(step);
+            [*at, *ramp_step] = varying.line(quotient, step);
         }
         ramp
     }
@@ -405,27 +410,28 @@ fn weight(scale: Factor, edge: i64) -> i64 {
     i64::from(u32::try_from(scale.apply(edge) >> 29).unwrap_or(u32::MAX))
 }
 
-/// A weight's step a pixel, Q32. On a row of two covered pixels or more it is at most 1 in magnitude;
-/// a steeper step is never taken, so it is clamped.
+/// What turns a vertex's edge function into its weight, and the weight's step a pixel, Q32.
+///
+/// The weight of a unit is, in units of the setup's inverse, `k w` where varyings are linear on the screen, otherwise
+/// `k h`. On a row of two covered pixels or more a step is at most 1 in magnitude; a steeper step is never taken, so it
+/// is clamped.
 #[inline(never)]
-fn weight_step(scale: Scale, edge: i64) -> i64 {
-    const LIMIT: i64 = (1 << 32) - 1;
-    scale.apply(edge, 32).clamp(-LIMIT, LIMIT)
-}
-
-/// The weight of a unit of a vertex's edge function, in units of the setup's inverse: `k w` where varyings are linear on
-/// the screen, otherwise `k h`.
-#[inline(never)]
-fn weight_scale<T: Snap, const N: usize, const P: usize>(
+fn weight_of<T: Snap, const N: usize, const P: usize>(
     vertex: &Vertex<T, N, P>,
+    edge: i64,
     linear: bool,
     hither: Hither,
-) -> Scale {
-    if linear {
-        return Scale::of(u64::from(vertex.position.scaled_w().unsigned_abs()));
+    inverse: &Scale,
+) -> (Factor, i64) {
+    const LIMIT: i64 = (1 << 32) - 1;
+    let w = if linear { vertex.position.scaled_w() } else { hither.raw() };
+    let mut scale = Scale::of(u64::from(w.unsigned_abs()));
+    if !linear {
+        let ScaleOf(k) = vertex.position.scale();
+        scale = k.times(scale);
     }
-    let ScaleOf(k) = vertex.position.scale();
-    k.times(Scale::of(u64::from(hither.raw().unsigned_abs())))
+    let scale = scale.times(*inverse);
+    (Factor::new(scale, 0), scale.apply(edge, 32).clamp(-LIMIT, LIMIT))
 }
 
 /// Whether the vertices have the same `w`, to the bit, so that `q` is constant.

@@ -76,10 +76,12 @@ struct Term {
 }
 
 impl Term {
-    #[inline]
-    fn new(value: &Signed) -> Self {
-        let sign = -i32::from(value.negative);
-        Self { factor: Factor::new(value.scale, TERM_BITS), sign }
+    /// Of `k z` of a vertex and the running units of 1, and what a step of its edge function comes to.
+    #[inline(never)]
+    fn of(value: &Signed, full: Scale, step: i64) -> (Self, i64) {
+        let value = value.times(full);
+        let factor = Factor::new(value.scale, TERM_BITS);
+        (Self { factor, sign: -i32::from(value.negative) }, value.apply(step, 0))
     }
 
     /// The running units where the edge function is `e`, rounded.
@@ -126,10 +128,10 @@ impl DepthPlane {
         let limited = |step: i64| step.clamp(-STEEPEST, STEEPEST);
         if outside.0 & Outside::STEEP == 0 {
             let ([u, v, w], [x, y, z]) = (values, steps);
-            let [u, v, w] = [u.times(full), v.times(full), w.times(full)];
-            let step = u.apply(x, 0).saturating_add(v.apply(y, 0)).saturating_add(w.apply(z, 0));
-            let weights = Weights::Each([Term::new(&u), Term::new(&v), Term::new(&w)]);
-            Self { weights, step: limited(step), half }
+            let ((u, x), (v, y), (w, z)) =
+                (Term::of(&u, full, x), Term::of(&v, full, y), Term::of(&w, full, z));
+            let step = limited(x.saturating_add(y).saturating_add(z));
+            Self { weights: Weights::Each([u, v, w]), step, half }
         } else {
             let (values, exponent) = align(&values);
             let scale = full.times(Scale::power_of_two(exponent));
