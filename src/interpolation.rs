@@ -163,14 +163,14 @@ impl Varying {
         let both = [difference(u1), difference(u2)];
         let largest = both[0].unsigned_abs().max(both[1].unsigned_abs());
         let exponent = 64 - largest.saturating_sub(1).leading_zeros();
-        let differences = both.map(|d| low(shr_round(d << 30, exponent)));
+        let differences = [in_units(both[0], exponent), in_units(both[1], exponent)];
         let mut varying = Self { base: u0, differences, exponent, step: 0 };
         varying.step = varying.numerator(weight_steps);
         varying
     }
 
     /// `sum((u_i - u_0) weight_i)`, Q30, saturated. Weights are Q32, below 1 + 2^-20 in magnitude.
-    #[inline]
+    #[inline(never)]
     fn numerator(&self, [_, b1, b2]: &[i64; 3]) -> i32 {
         let [d1, d2] = self.differences.map(i64::from);
         saturate(shr_round(d1 * b1 + d2 * b2, 32))
@@ -262,6 +262,18 @@ impl Inverse {
         let normal = n << (self.zeros.wrapping_sub(1) & 31);
         low((i64::from(normal) * i64::from(self.reciprocal)) >> 32)
     }
+
+    /// [`quotient`](Self::quotient), where there is one for each varying and not for each pixel.
+    #[inline(never)]
+    fn any_quotient(&self, n: i32) -> i32 {
+        self.quotient(n)
+    }
+}
+
+/// A difference of raw values, Q30 in units of `2^exponent`.
+#[inline(never)]
+fn in_units(difference: i64, exponent: u32) -> i32 {
+    low(shr_round(difference << 30, exponent))
 }
 
 /// Where one straight piece ends and the next begins: its quotients, so that they are divided once.
@@ -326,7 +338,9 @@ impl<const N: usize> Varyings<N> {
         let mut quotients = n;
         if C::EVERY > 1 && self.mode != Mode::Linear {
             let inverse = Inverse::new(q);
-            quotients = n.map(|n| inverse.quotient(n));
+            for quotient in &mut quotients {
+                *quotient = inverse.any_quotient(*quotient);
+            }
         }
         for (quotient, varying) in quotients.iter_mut().zip(&self.each) {
             *quotient = varying.limited(*quotient);

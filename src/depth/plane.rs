@@ -85,7 +85,7 @@ impl Term {
     }
 
     /// The running units where the edge function is `e`, rounded.
-    #[inline]
+    #[inline(never)]
     fn apply(&self, e: i64) -> i64 {
         let product = shr_round(self.factor.apply(e), (61 - TERM_BITS).unsigned_abs());
         let sign = i64::from(self.sign);
