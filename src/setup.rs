@@ -59,7 +59,8 @@ pub trait Tier: Snap {
     #[doc(hidden)]
     fn in_pixels(vertex: &Self::Position, viewport: &Viewport) -> PixelVertex;
 
-    /// The facing of three vertices, which are also there in pixel space, and [`Setup::inverse`]; `None` where their determinant is 0.
+    /// The facing of three vertices, which are also there in pixel space, and [`Setup::inverse`]; `None` where their
+    /// determinant is 0.
     #[doc(hidden)]
     fn orient(
         vertices: [&Self::Position; 3],

@@ -141,7 +141,8 @@ pub(crate) struct ClipWalk<const P: usize> {
 }
 
 impl<const P: usize> ClipWalk<P> {
-    /// The planes before the first row of a box: of each plane that some vertex is outside of (a bit of `outside`), its edge function.
+    /// The planes before the first row of a box: of each that some vertex is outside of (a bit of `outside`), its edge
+    /// function.
     #[inline]
     pub(crate) fn new<T: Snap, const N: usize>(
         setup: &Setup,
