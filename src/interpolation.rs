@@ -393,7 +393,8 @@ impl<const N: usize> Varyings<N> {
 /// pixel.
 #[inline]
 fn per_pixel(last: i32, first: i32, steps: i32) -> i32 {
-    /// `ceil(2^32 / n)` for n of 0 to 64; 0 and 1 are not looked up.
+    /// `ceil(2^32 / n)` for n of 0 to 64; 0 and 1 are not looked up. By a division instead W5 takes 2 % more instructions on
+    /// a Cortex-M4F.
     const INVERSE: [u32; 65] = inverses();
     let difference = i64::from(last) - i64::from(first);
     if steps <= 1 {

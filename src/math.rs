@@ -160,14 +160,25 @@ fn normalized_by_halves(mut v: u32) -> (u32, u32) {
     (v << last, zeros + last)
 }
 
-/// `2^48 / m` for `m` in `[2^31, 2^32)`, to one part in 2^15: a table of 128 bytes, then a Newton
+/// Q9 of `2^31 / m`, in (1/2, 1]: 9 bits, from the table.
+#[inline]
+fn seed_of(m: u32) -> u32 {
+    256 + SEED.get(((m >> 24) & 0x7f) as usize).copied().map_or(0, u32::from)
+}
+
+/// The same without the table, where a division is an instruction.
+#[inline]
+fn seed_by_division(m: u32) -> u32 {
+    let d = (m >> 23) | 1;
+    (131_072 + d / 2).checked_div(d).unwrap_or(0)
+}
+
+/// `2^48 / m` for `m` in `[2^31, 2^32)`, to one part in 2^15: a seed of 9 bits, then a Newton
 /// step. The result is in `[2^16, 2^17)`.
 #[inline]
 #[expect(clippy::cast_sign_loss, reason = "2^16 to 2^17")]
 pub(crate) fn reciprocal_estimate(m: u32) -> u32 {
-    // Q9 of 2^31 / m, in (1/2, 1]: 9 bits.
-    let seed = SEED.get(((m >> 24) & 0x7f) as usize).copied().unwrap_or(0);
-    let x = 256 + i32::from(seed);
+    let x = bits(if SMALL_CORE { seed_of(m) } else { seed_by_division(m) });
     // 1/2 - x f, with f = m / 2^32 cut to 16 bits: Q25, at most 2^17 + 2^9.
     let error = (1 << 24) - x * bits(m >> 16);
     // Q17: x + 2 x error.
@@ -435,6 +446,13 @@ mod tests {
             let exact = (1u128 << 63) / u128::from(m);
             let r = u128::from(reciprocal(m));
             assert!(exact.abs_diff(r) << 29 <= exact, "1 / {m}: {r}, not {exact}");
+        }
+    }
+
+    #[test]
+    fn seeds_by_division_are_the_tables() {
+        for m in mantissas().chain([u32::MAX, u32::MAX - 1]) {
+            assert_eq!(seed_by_division(m), seed_of(m), "{m}");
         }
     }
 
