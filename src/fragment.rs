@@ -54,11 +54,11 @@ pub trait Fragment<C: Copy, const N: usize>: Copy {
     #[doc(hidden)]
     const WRAPS: bool = false;
 
-    /// The colour of such a word.
+    /// The colour of such a word; where it has none, the pixel keeps what it was.
     #[doc(hidden)]
     #[inline]
-    fn shade_lanes(&self, _: u32) -> C {
-        self.shade(Sample { x: 0, y: 0, varyings: [I16F16::ZERO; N] })
+    fn shade_lanes(&self, _: u32) -> Option<C> {
+        None
     }
 
     /// The shader of a face, by its index in the mesh; 0 for a single triangle.
@@ -118,8 +118,8 @@ impl<C: FromUnit> Fragment<C, 3> for Gouraud {
     const LANES: Option<[Lane; 3]> = C::LANES;
 
     #[inline]
-    fn shade_lanes(&self, word: u32) -> C {
-        C::from_lanes(word)
+    fn shade_lanes(&self, word: u32) -> Option<C> {
+        Some(C::from_lanes(word))
     }
 
     #[inline]
@@ -156,8 +156,8 @@ where
     const WRAPS: bool = true;
 
     #[inline]
-    fn shade_lanes(&self, word: u32) -> F::Color {
-        self.0.nearest_of_fractions(word >> 16, word & 0xffff).unwrap_or_default()
+    fn shade_lanes(&self, word: u32) -> Option<F::Color> {
+        self.0.nearest_of_fractions(word)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Textures: borrowed texels, sampled nearest.
 
 use crate::color::PixelFormat;
+use crate::math::{SMALL_CORE, high};
 use fixed::types::I16F16;
 
 /// A texture of `width x height` texels stored as `F`, rows from the top, in flash or RAM.
@@ -56,16 +57,21 @@ impl<'a, F: PixelFormat> Texture<'a, F> {
     #[inline]
     #[must_use]
     pub fn nearest(&self, u: I16F16, v: I16F16) -> Option<F::Color> {
-        self.nearest_of_fractions(fraction(u), fraction(v))
+        self.nearest_of_fractions(fraction(u) << 16 | fraction(v))
     }
 
-    /// The texel that holds coordinates in `[0, 1)`, Q16.
+    /// The texel that holds coordinates in `[0, 1)`, Q16, `u` in the upper half of a word and `v` in the lower. There
+    /// always is one.
     #[inline]
-    pub(crate) fn nearest_of_fractions(&self, u: u32, v: u32) -> Option<F::Color> {
-        let column = (u * self.width) >> 16;
-        let row = (v * self.height) >> 16;
-        let at = row as usize * self.width as usize + column as usize;
-        self.texels.get(at).map(|word| F::decode(*word))
+    pub(crate) fn nearest_of_fractions(&self, uv: u32) -> Option<F::Color> {
+        let (u, row) = (uv >> 16, (uv & 0xffff) * self.height);
+        let at = if SMALL_CORE {
+            (row >> 16) * self.width + ((u * self.width) >> 16)
+        } else {
+            // The row and u as one number, Q16: a whole row adds a whole number of texels.
+            high(u64::from((row & 0xffff_0000) | u) * u64::from(self.width << 16))
+        };
+        self.texels.get(at as usize).map(|word| F::decode(*word))
     }
 }
 

@@ -91,7 +91,7 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
     const AT_ONCE: usize = 2;
 
     #[inline]
-    fn color(&self, fragment: &F, _: i32, _: i32) -> C {
+    fn color(&self, fragment: &F, _: i32, _: i32) -> Option<C> {
         fragment.shade_lanes(self.at)
     }
 
@@ -105,7 +105,7 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N>
     const AT_ONCE: usize = 1;
 
     #[inline]
-    fn color(&self, fragment: &F, _: i32, _: i32) -> C {
+    fn color(&self, fragment: &F, _: i32, _: i32) -> Option<C> {
         let mut word = 0;
         for (lane, at) in F::LANES.iter().flatten().zip(self.at) {
             word |= at >> (32 - lane.width) << lane.place;
@@ -125,7 +125,7 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Divided<'_,
     const AT_ONCE: usize = 1;
 
     #[inline]
-    fn color(&self, fragment: &F, _: i32, _: i32) -> C {
+    fn color(&self, fragment: &F, _: i32, _: i32) -> Option<C> {
         let mut word = 0;
         for (lane, at) in F::LANES.iter().flatten().zip(self.0.fractions()) {
             word |= at >> (24 - lane.width) << lane.place;

@@ -307,7 +307,7 @@ where
         let mut x = x0;
         let at = (index(x0 + left), index(y + top), start.wrapping_add(index(x0)));
         let mut pixel = move |passes: bool| {
-            let color = passes.then(|| block.color(&fragment, x, y));
+            let color = if passes { block.color(&fragment, x, y) } else { None };
             block.step();
             x += 1;
             color

@@ -209,7 +209,7 @@ pub(super) trait Pixels<C, F, const N: usize> {
     const AT_ONCE: usize;
 
     /// The colour at this pixel, column `x` of row `y`.
-    fn color(&self, fragment: &F, x: i32, y: i32) -> C;
+    fn color(&self, fragment: &F, x: i32, y: i32) -> Option<C>;
 
     /// To the next pixel.
     fn step(&mut self);
@@ -224,8 +224,8 @@ impl<C: Copy, F: Fragment<C, N>, R: Run<N>, const N: usize> Pixels<C, F, N> for 
     };
 
     #[inline]
-    fn color(&self, fragment: &F, x: i32, y: i32) -> C {
-        fragment.shade(Sample { x, y, varyings: self.varyings() })
+    fn color(&self, fragment: &F, x: i32, y: i32) -> Option<C> {
+        Some(fragment.shade(Sample { x, y, varyings: self.varyings() }))
     }
 
     #[inline]
