@@ -228,6 +228,39 @@ fn refined_split(x: u32, m: u32) -> u32 {
     (x << 15).wrapping_add_signed(step)
 }
 
+/// `2^47 / m` for `m` in `[2^31, 2^32)`, 16 bits, never above it: `m` is rounded up to 17 bits, and the quotient down.
+/// From `(2^31 - 1) / 2^16 - 1` to `2^16 - 1`, off by less than a part in `2^14` (`short_reciprocals_are_below` in this
+/// file).
+#[inline]
+pub(crate) fn reciprocal_below(m: u32) -> i32 {
+    let above = (m >> 16) + 1;
+    if SMALL_CORE { quotient_by_steps(above) } else { signed(unsigned(i32::MAX) / above) }
+}
+
+/// `floor((2^31 - 1) / d)` for `d` of `2^15 + 1` to `2^16`, without a division. All were tried.
+#[inline]
+fn quotient_by_steps(d: u32) -> i32 {
+    let rest = |x: i32| i32::MAX.wrapping_sub(x.wrapping_mul(signed(d)));
+    // Within 2 or 3, then within 1.
+    let x = signed(reciprocal_estimate((d << 16).wrapping_sub(1)) >> 1);
+    let x = x + (((rest(x) >> 3) * x) >> 28);
+    let left = rest(x);
+    x + (left >> 31) + i32::from(left >= signed(d))
+}
+
+/// `a b / 2^17`, floored, for `b` of 16 bits: 0 to `2^16 - 1`.
+#[inline]
+pub(crate) const fn high_product_16(a: i32, b: i32) -> i32 {
+    if SMALL_CORE { high_product_of_halves(a, b) } else { low((a as i64 * (b << 15) as i64) >> 32) }
+}
+
+/// [`high_product_16`] from two products of 16 by 16 bits.
+#[inline]
+const fn high_product_of_halves(a: i32, b: i32) -> i32 {
+    let low = (unsigned(a) & 0xffff) * unsigned(b);
+    ((a >> 16) * b + signed(low >> 16)) >> 1
+}
+
 /// A positive real `mantissa * 2^exponent` with `mantissa` in `[2^31, 2^32)`, or zero with mantissa
 /// 0.
 ///
@@ -464,6 +497,27 @@ mod tests {
             let exact = (1u64 << 48) / u64::from(m);
             assert!(exact.abs_diff(u64::from(x)) << 15 <= exact + (1 << 15), "{m}: {x}");
             assert!((1 << 16..1 << 17).contains(&x));
+        }
+    }
+
+    #[test]
+    fn short_reciprocals_are_below() {
+        for d in (1 << 15) + 1..=1 << 16 {
+            assert_eq!(quotient_by_steps(d), i32::MAX / d as i32, "{d}");
+        }
+        for m in mantissas().chain([u32::MAX, 1 << 31]) {
+            let (exact, r) = (2f64.powi(47) / f64::from(m), f64::from(reciprocal_below(m)));
+            assert!(r <= exact && (exact - r) * 2f64.powi(14) < exact, "{m}: {r}, not {exact}");
+        }
+    }
+
+    #[test]
+    fn short_products_of_halves_are_products() {
+        for i in 0..100_000_i32 {
+            let a = i.wrapping_mul(0x6789_abcd) >> (i % 31);
+            let b = if i % 3 == 0 { 0xffff } else { i.wrapping_mul(40_503) & 0xffff };
+            let exact = ((i64::from(a) * i64::from(b)) >> 17) as i32;
+            assert_eq!((high_product_16(a, b), high_product_of_halves(a, b)), (exact, exact));
         }
     }
 
