@@ -1,5 +1,6 @@
 //! The front door: a frame that triangles and meshes are drawn into, and what became of each.
 
+mod bent;
 mod flat;
 mod frame;
 mod homogeneous;

@@ -130,8 +130,9 @@ impl<C: FromUnit> Fragment<C, 3> for Gouraud {
 
 /// Colour from a texture, nearest texel, by two varyings `u` and `v`: see [`Texture`].
 ///
-/// With [`PackedEvery`](crate::PackedEvery) a coordinate is stepped by whole 2^-16: at the end of a straight piece of `N` pixels it is up to
-/// `N` of those off, and up to 16 where the whole triangle is straight. That is a texel of a side of 1024 for `N` = 64.
+/// With [`PackedEvery`](crate::PackedEvery) a coordinate is stepped by whole 2^-16: up to `N` of those off at the end of a
+/// straight piece for an `N` below 8, up to 64 along a line that bends, of which 32 are at its end, and up to 16 where the whole
+/// triangle is straight. A texel of a side of 1024 is 64.
 #[derive(Debug)]
 pub struct Textured<'a, F: PixelFormat>(pub Texture<'a, F>);
 

@@ -58,6 +58,30 @@ pub trait Target {
         self.write(x, y, lanes.iter_mut().map(|lane| color(lane, false)));
     }
 
+    /// Writes pixels of row `y` from column `x` on, one for each of `lanes`, all inside of the target: what `runs` make of
+    /// them.
+    #[doc(hidden)]
+    #[inline]
+    fn write_bent<L: Pod>(
+        &mut self,
+        (x, y, _): (usize, usize, usize),
+        lanes: &mut [L],
+        mut runs: impl Runs<L, Self::Color>,
+    ) {
+        let mut current = None;
+        let colors = lanes.iter_mut().map(|lane| {
+            let (mut run, done) = current.take().unwrap_or_else(|| (runs.begin(), 0));
+            let color = run.pen.color(lane);
+            let done = done + 1;
+            if done % BEND == 0 {
+                run.pen.bend(run.steps);
+            }
+            current = (run.last || done < run.bends * BEND).then_some((run, done));
+            color
+        });
+        self.write(x, y, colors);
+    }
+
     /// Fills `length` pixels of row `y` from column `x` on with one colour.
     #[inline]
     fn fill(&mut self, x: usize, y: usize, length: usize, color: Self::Color) {
@@ -140,6 +164,43 @@ pub trait Target {
             self.fill(0, y as usize, width as usize, color);
         }
     }
+}
+
+/// A run bends after so many pixels.
+pub(crate) const BEND: usize = 8;
+
+/// The runs of pixels that a row is made of, each pixel with a lane beside it. All but the last are of whole bends.
+#[doc(hidden)]
+pub trait Runs<L, C> {
+    /// A run at one of its pixels.
+    type Pen: Pen<L, C>;
+
+    /// The next run of the row.
+    fn begin(&mut self) -> RunOf<Self::Pen>;
+}
+
+/// A run of pixels.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct RunOf<P> {
+    /// At its first pixel.
+    pub pen: P,
+    /// How the pen's steps go on.
+    pub steps: [u32; 2],
+    /// How often it bends.
+    pub bends: usize,
+    /// Whether it ends where the row does, however many pixels that are.
+    pub last: bool,
+}
+
+/// A run at one of its pixels.
+#[doc(hidden)]
+pub trait Pen<L, C> {
+    /// The colour of the pixel, and on to the next.
+    fn color(&mut self, lane: &mut L) -> Option<C>;
+
+    /// After [`BEND`] pixels.
+    fn bend(&mut self, steps: [u32; 2]);
 }
 
 /// A framebuffer in words the caller lends, stored as `F`: rows from the top, without padding.
@@ -259,6 +320,64 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
         }
         for (word, lane) in words.iter_mut().zip(lanes) {
             draw(word, lane, false);
+            core::hint::black_box(());
+        }
+    }
+
+    #[inline(always)]
+    fn write_bent<L: Pod>(
+        &mut self,
+        (_, _, at): (usize, usize, usize),
+        lanes: &mut [L],
+        mut runs: impl Runs<L, F::Color>,
+    ) {
+        let Some(words) = self.words.get_mut(at..at.wrapping_add(lanes.len())) else {
+            return;
+        };
+        let draw = |pen: &mut _, word: &mut F::Word, lane: &mut L| {
+            if let Some(color) = Pen::color(pen, lane) {
+                *word = F::encode(color);
+            }
+        };
+        let whole = lanes.len() / BEND * BEND;
+        let Some((words, last_words)) = words.split_at_mut_checked(whole) else {
+            return;
+        };
+        let Some((lanes, last_lanes)) = lanes.split_at_mut_checked(whole) else {
+            return;
+        };
+        let Ok(words) = bytemuck::try_cast_slice_mut::<F::Word, [F::Word; BEND]>(words) else {
+            return;
+        };
+        let Ok(lanes) = bytemuck::try_cast_slice_mut::<L, [L; BEND]>(lanes) else {
+            return;
+        };
+        let mut rest = lanes;
+        let mut state = (words.iter_mut(), <&mut [[L; BEND]]>::default().iter_mut(), [0; 2]);
+        // What is behind this is read anew a chunk: its pixels want the registers. Sixteen at a time took as much, and two
+        // iterators zipped into one half an instruction a pixel more.
+        let _ = core::hint::black_box(&mut state);
+        let mut pen;
+        loop {
+            let run = runs.begin();
+            let Some((these, others)) = rest.split_at_mut_checked(run.bends) else {
+                return;
+            };
+            (pen, state.1, state.2, rest) = (run.pen, these.iter_mut(), run.steps, others);
+            for lanes in state.1.by_ref() {
+                let Some(words) = state.0.next() else { return };
+                for (word, lane) in words.iter_mut().zip(lanes) {
+                    draw(&mut pen, word, lane);
+                }
+                core::hint::black_box(());
+                pen.bend(state.2);
+            }
+            if run.last {
+                break;
+            }
+        }
+        for (word, lane) in last_words.iter_mut().zip(last_lanes) {
+            draw(&mut pen, word, lane);
             core::hint::black_box(());
         }
     }

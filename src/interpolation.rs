@@ -23,6 +23,7 @@
 //! Along a straight line a value is stepped in raw steps times 2^32, so that a pixel costs one addition
 //! of 64 bits a varying, whose high word is the value.
 
+mod arcs;
 mod plane;
 mod quotient;
 
@@ -31,6 +32,7 @@ use crate::math::{Factor, Scale, low, reciprocal, saturate, shr_round};
 use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
+pub(crate) use arcs::{Arcs, Bend};
 use fixed::types::I16F16;
 pub(crate) use plane::{Line, Linear, Pieces, is_straight, nearness_of, wrapped};
 pub(crate) use quotient::{Followed, Level, Quotients, Slope};
@@ -85,6 +87,10 @@ pub struct PerspectiveEvery<const N: u8>;
 /// [`PerspectiveEvery`] for speed: in the quick tiers what a pixel is made of is stepped as one word where it fits, colours
 /// within a step of RGB565, texture coordinates to 2^-16; and a straight line over the whole triangle may be as far off
 /// as the fragment allows ([`Fragment::TOLERANCE`](crate::Fragment::TOLERANCE)).
+///
+/// Texture coordinates with `N` of 8 or more: where `1 / w` changes by at most half of itself along 32 pixels, those are
+/// divided for once, and the line bends every 8, which is about as near as straight lines of 8; elsewhere lines are straight
+/// and 8 long, for an `N` above as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PackedEvery<const N: u8>;
 

@@ -13,6 +13,8 @@ pub struct Texture<'a, F: PixelFormat> {
     texels: &'a [F::Word],
     width: u32,
     height: u32,
+    /// `2^16 width`.
+    across: u32,
 }
 
 impl<F: PixelFormat> Clone for Texture<'_, F> {
@@ -41,7 +43,7 @@ impl<'a, F: PixelFormat> Texture<'a, F> {
         let sides = width >= 1 && width <= Self::MAX_SIDE && height >= 1;
         let fits = sides && height <= Self::MAX_SIDE && texels.len() == (width * height) as usize;
         if fits {
-            Ok(Self { texels, width, height })
+            Ok(Self { texels, width, height, across: width << 16 })
         } else {
             Err(TextureSize { width, height, words: texels.len() })
         }
@@ -57,21 +59,31 @@ impl<'a, F: PixelFormat> Texture<'a, F> {
     #[inline]
     #[must_use]
     pub fn nearest(&self, u: I16F16, v: I16F16) -> Option<F::Color> {
-        self.nearest_of_fractions(fraction(u) << 16 | fraction(v))
+        self.nearest_of_fractions(fraction(v) << 16 | fraction(u))
     }
 
-    /// The texel that holds coordinates in `[0, 1)`, Q16, `u` in the upper half of a word and `v` in the lower. There
-    /// always is one.
+    /// The texel that holds coordinates in `[0, 1)`, Q16, `v` in the upper half of a word and `u` in the lower. There
+    /// always is one. All of the word is `v`: what is below its 16 bits adds less than one of them.
     #[inline]
-    pub(crate) fn nearest_of_fractions(&self, uv: u32) -> Option<F::Color> {
-        let (u, row) = (uv >> 16, (uv & 0xffff) * self.height);
-        let at = if SMALL_CORE {
-            (row >> 16) * self.width + ((u * self.width) >> 16)
-        } else {
-            // The row and u as one number, Q16: a whole row adds a whole number of texels.
-            high(u64::from((row & 0xffff_0000) | u) * u64::from(self.width << 16))
-        };
+    pub(crate) fn nearest_of_fractions(&self, vu: u32) -> Option<F::Color> {
+        let at = if SMALL_CORE { self.index_by_halves(vu) } else { self.index(vu) };
         self.texels.get(at as usize).map(|word| F::decode(*word))
+    }
+
+    /// Where the texel of a word of fractions is.
+    #[inline]
+    fn index(&self, vu: u32) -> u32 {
+        let row = high(u64::from(vu) * u64::from(self.height));
+        // The row and u as one number, Q16: a whole row adds a whole number of texels.
+        high(u64::from(row << 16 | vu & 0xffff) * u64::from(self.across))
+    }
+
+    /// [`Texture::index`] in products of 32 bits.
+    #[inline]
+    fn index_by_halves(&self, vu: u32) -> u32 {
+        let (u, v) = (vu & 0xffff, vu >> 16);
+        let row = (v * self.height + ((u * self.height) >> 16)) >> 16;
+        row * self.width + ((u * self.width) >> 16)
     }
 }
 
@@ -117,6 +129,41 @@ mod tests {
         let at = |u: f64| (fraction(I16F16::from_num(u)) * 3) >> 16;
         assert_eq!([0.0, 0.34, 0.99, 1.0, 5.5].map(at), [0, 1, 2, 0, 1]);
         assert_eq!([-0.01, -0.34, -0.99, -1.0].map(at), [2, 1, 0, 0]);
+    }
+
+    /// Of all sides, and coordinates far outside of `[0, 1]`.
+    #[test]
+    fn texels_are_found_in_textures_of_any_size() {
+        let words = std::vec![0u8; 1 << 20];
+        let mut state = 3u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            state.rotate_right(8)
+        };
+        for i in 0..20_000 {
+            let sides = [1, 2, 3, 64, 255, 256, 1000, 1024];
+            let [width, height] = [i % 8, i / 8 % 9].map(|i| match sides.get(i) {
+                Some(&side) => side,
+                None => 1 + random() % 1024,
+            });
+            let words = &words[..(width * height) as usize];
+            let texture = Texture::<Gray8>::try_new(words, width, height).unwrap();
+            let uv = [0; 2].map(|_| match random() % 4 {
+                0 => 0u32.wrapping_sub(random() % 3),
+                1 => (random() % 5) * (1 << 16) / height,
+                _ => random(),
+            } as i32);
+            let [u, v] = uv.map(|c| f64::from(c).rem_euclid(65_536.0) / 65_536.0);
+            let vu = fraction(I16F16::from_bits(uv[1])) << 16 | fraction(I16F16::from_bits(uv[0]));
+            let at = texture.index(vu);
+            assert_eq!(at, texture.index_by_halves(vu), "{width} x {height}, {vu:x}");
+            let (column, row) = (at % width, at / width);
+            assert_eq!(column, (u * f64::from(width)) as u32);
+            let exact = v * f64::from(height);
+            let past = (v + 1.0 / 65_536.0) * f64::from(height);
+            assert!(exact as u32 <= row && f64::from(row) < past, "{row} for {exact}");
+            assert!(texture.nearest_of_fractions(vu).is_some());
+        }
     }
 
     #[test]

@@ -32,6 +32,15 @@ pub(super) struct Word {
     pub(super) step: u32,
 }
 
+/// A word along a line that bends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bent {
+    pub(super) at: u32,
+    pub(super) step: u32,
+    /// What is added to the step.
+    pub(super) bend: u32,
+}
+
 /// The same channels along a row, each stepped by itself with all bits of its plane: within half a step of the colour and
 /// what the plane is off.
 #[derive(Clone, Copy, Debug)]
@@ -101,6 +110,30 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
     }
 }
 
+impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Bent {
+    const AT_ONCE: usize = 1;
+
+    #[inline]
+    fn color(&self, fragment: &F, _: i32, _: i32) -> Option<C> {
+        fragment.shade_lanes(self.at)
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        self.at = self.at.wrapping_add(self.step);
+    }
+
+    #[inline]
+    fn bend(&self) -> u32 {
+        self.bend
+    }
+
+    #[inline]
+    fn bend_by(&mut self, bend: u32) {
+        self.step = self.step.wrapping_add(bend);
+    }
+}
+
 impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N> {
     const AT_ONCE: usize = 1;
 
@@ -142,8 +175,8 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Divided<'_,
 #[cfg(test)]
 mod tests {
     use crate::{
-        ClipVertex, Fragment, Frame, Framebuffer, Gouraud, Hither, I16F16, Outcome, PackedEvery,
-        Quick, Rgb565, Snapped, Texture, Textured, Vertex,
+        ClipVertex, DepthBuffer, Fragment, Frame, Framebuffer, Gouraud, Hither, I16F16, Outcome,
+        PackedEvery, Quick, Rgb565, Snapped, Target, Texture, Textured, Vertex,
     };
     use std::vec::Vec;
 
@@ -265,5 +298,62 @@ mod tests {
             }
         }
         assert!(count > 60_000, "{count} pixels");
+    }
+
+    /// A target that has but what it needs.
+    struct Bare<'a>(Framebuffer<'a, Rgb565>);
+
+    impl Target for Bare<'_> {
+        type Color = Rgb565;
+
+        fn size(&self) -> (u32, u32) {
+            self.0.size()
+        }
+
+        fn write(&mut self, x: usize, y: usize, colors: impl Iterator<Item = Option<Rgb565>>) {
+            self.0.write(x, y, colors);
+        }
+    }
+
+    /// Lines that bend are the same without depth, and in a target that steps pixel by pixel.
+    #[test]
+    fn bent_lines_are_the_same_everywhere() {
+        let texels: Vec<u16> = (1..=64 * 64).collect();
+        let texture = Textured(Texture::<Rgb565>::try_new(&texels, 64, 64).unwrap());
+        let size = (SIDE * SIDE) as usize;
+        let (mut below, mut drawn) = (random(), 0);
+        for i in 0..90 {
+            let points = corners(i, &mut below);
+            let clips = points.map(|[x, y]| {
+                let w = 1 + below(7);
+                let at = |v: i32| I16F16::from_bits(w * (v << 9));
+                let uv = [0; 2].map(|_| I16F16::from_bits(below(1 << 17)));
+                (ClipVertex::new(at(x), at(y), I16F16::ZERO, I16F16::from_num(w)), uv)
+            });
+            let hither = Hither::new(I16F16::ONE).unwrap();
+            let (mut with, mut without, mut bare) =
+                (std::vec![0; size], std::vec![0; size], std::vec![0; size]);
+            let (mut one, mut two) = (std::vec![0xffffu16; size], std::vec![0xffffu16; size]);
+            let target = |words| Framebuffer::<Rgb565>::try_new(words, SIDE, SIDE).unwrap();
+            macro_rules! draw {
+                ($target:expr, $depth:expr) => {{
+                    let frame = Frame::new($target).unwrap().with_tier(Quick::<8>);
+                    let frame = frame.with_hither(hither).with_correction(PackedEvery::<8>);
+                    $depth(frame).draw_triangle(clips, &texture);
+                }};
+            }
+            draw!(target(&mut without), |frame| frame);
+            let depth = DepthBuffer::<u16>::try_new(&mut one, SIDE, SIDE).unwrap();
+            draw!(target(&mut with), |frame: Frame<_, _, _, _, _>| frame
+                .with_depth(depth)
+                .unwrap());
+            let depth = DepthBuffer::<u16>::try_new(&mut two, SIDE, SIDE).unwrap();
+            draw!(Bare(target(&mut bare)), |frame: Frame<_, _, _, _, _>| frame
+                .with_depth(depth)
+                .unwrap());
+            assert!(with == without && with == bare, "{clips:?}");
+            drawn += with.iter().filter(|&&word| word != 0).count();
+        }
+        assert!(drawn > 10_000, "{drawn} pixels");
     }
 }

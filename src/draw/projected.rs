@@ -6,9 +6,9 @@ use super::shade::{NoVaryings, Pixels};
 use super::shape::Shape;
 use crate::depth::{DepthTest, projected};
 use crate::fragment::{Fragment, Sample};
-use crate::framebuffer::Target;
+use crate::framebuffer::{BEND, Target};
 use crate::interpolation::{
-    Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of, wrapped,
+    Arcs, Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of, wrapped,
 };
 use crate::math::{SMALL_CORE, index, signed, unsigned};
 use crate::setup::{Corner, Plane, Slopes, Tier};
@@ -51,6 +51,9 @@ pub(super) trait Rows<const N: usize> {
 
     /// Pixels of a block, at the most.
     const LONGEST: i32;
+
+    /// Whether blocks bend.
+    const BENT: bool = false;
 
     /// A row before its first block.
     fn joint(&self, span: Span) -> Self::Joint;
@@ -122,6 +125,12 @@ where
                 self.draw_shape(shape, &linear, fragment);
             }
         } else if I::EVERY > 1 {
+            if F::WRAPS && I::PACKED && index(I::EVERY) >= BEND {
+                let arcs = Arcs::new(slopes, vertices, q)?;
+                // Few that are short are not straight: one copy is enough.
+                self.draw_edges::<ProjectedSide, _, _, N>(shape, &arcs, fragment);
+                return Some(());
+            }
             let pieces = Every::<_, I>(Pieces::new(slopes, vertices, q)?, PhantomData);
             if F::WRAPS && I::PACKED {
                 self.draw_shape(shape, &Wrapped(pieces), fragment);
@@ -272,6 +281,10 @@ where
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
     {
+        if R::BENT && D::BITS > 0 {
+            self.draw_bent_row(span, start, [z, step], rows, fragment);
+            return;
+        }
         let mut joint = rows.joint(span);
         if SHORT && R::LONGEST >= SMALL {
             let (block, _) = rows.block(span, &mut joint);
@@ -282,7 +295,11 @@ where
         while rest.x0 < rest.x1 {
             let (block, length) = rows.block(rest, &mut joint);
             let now = Span { x1: rest.x0 + length, ..rest };
-            self.draw_pixels::<_, _, N, SHORT>(now, start, (z, step, plane), block, fragment);
+            if R::BENT {
+                self.draw_bent(now, block, fragment);
+            } else {
+                self.draw_pixels::<_, _, N, SHORT>(now, start, (z, step, plane), block, fragment);
+            }
             z = z.wrapping_add(step.wrapping_mul(unsigned(length)));
             rest.x0 += length;
         }

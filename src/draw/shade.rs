@@ -213,6 +213,16 @@ pub(super) trait Pixels<C, F, const N: usize> {
 
     /// To the next pixel.
     fn step(&mut self);
+
+    /// What its step bends by after [`BEND`](crate::framebuffer::BEND) pixels.
+    #[inline]
+    fn bend(&self) -> u32 {
+        0
+    }
+
+    /// Bends its step.
+    #[inline]
+    fn bend_by(&mut self, _: u32) {}
 }
 
 impl<C: Copy, F: Fragment<C, N>, R: Run<N>, const N: usize> Pixels<C, F, N> for R {

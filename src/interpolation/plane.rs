@@ -103,7 +103,7 @@ pub(crate) fn nearness_of<T: Tier, const N: usize, const P: usize>(
 
 /// The varyings of three vertices as raw numbers, one after the other, where all have planes.
 #[inline]
-fn raw<T: Snap, const N: usize, const P: usize>(
+pub(super) fn raw<T: Snap, const N: usize, const P: usize>(
     vertices: [&Vertex<T, N, P>; 3],
 ) -> Option<[[i32; 3]; N]> {
     let [a, b, c] = vertices.map(|v| &v.varyings);
@@ -220,11 +220,11 @@ impl<const N: usize> Line<N> {
     }
 }
 
-/// Raw values modulo 1, 16 bits each, the first highest. Sums of such words are words of sums, but for a carry from one
+/// Raw values modulo 1, 16 bits each, the first lowest. Sums of such words are words of sums, but for a carry from one
 /// to the next: 2^-16.
 #[inline]
-pub(crate) fn word<const N: usize>(values: [i32; N]) -> u32 {
-    values.iter().fold(0, |word: u32, &value| (word << 16).wrapping_add_signed(value))
+pub(super) fn word<const N: usize>(values: [i32; N]) -> u32 {
+    values.iter().rev().fold(0, |word: u32, &value| (word << 16).wrapping_add_signed(value))
 }
 
 /// The word of a pixel's values, and its step to those `steps` pixels on, 0 to 64.
@@ -280,8 +280,8 @@ mod tests {
     fn pieces_pass_neither_end() {
         for difference in [-100_000, -17, -16, -1, 0, 1, 5, 16, 99_999] {
             for steps in 1..=64 {
-                let [first, step] = wrapped([0, 1000], [1000, 1000 + difference], steps);
-                assert_eq!(first, word([0, 1000]));
+                let [first, step] = wrapped([1000, 0], [1000 + difference, 1000], steps);
+                assert_eq!(first, word([1000, 0]));
                 let low = signed(step << 16) >> 16;
                 let per = |d: i32| d / steps;
                 assert_eq!(low, (per(difference) << 16) >> 16, "{difference} in {steps}");
