@@ -206,11 +206,14 @@ where
                 return outcome;
             }
         }
-        let outcome = if T::PROJECTS {
-            let ranged = all & Outside::RANGED != 0;
-            self.draw_projected(vertices, ranged, fragment)
-        } else {
+        let outcome = if !T::PROJECTS {
             self.draw_homogeneous(vertices, any, fragment)
+        } else if D::BITS > 16 || (D::BITS > 0 && all & Outside::RANGED == 0) {
+            None
+        } else if N == 0 {
+            self.draw_plain(vertices, fragment)
+        } else {
+            self.draw_varied(vertices, fragment)
         };
         match outcome {
             Some(outcome) => outcome,
@@ -291,54 +294,73 @@ where
         }
     }
 
-    /// Draws a triangle of three projected vertices that no plane cuts; `None` where it has to be drawn as any other.
+    /// The corners of three projected vertices and their doubled area; or what became of the triangle, if it is not drawn.
     #[inline(always)]
-    fn draw_projected<F, const N: usize>(
+    fn oriented<const N: usize>(
+        &self,
+        vertices: [&Vertex<T, N, P>; 3],
+    ) -> Result<([[i32; 2]; 3], i64), Outcome> {
+        let corners = T::corners(vertices.map(|v| &v.position));
+        // Before anything is made of them: half of a mesh's triangles look away.
+        let area = doubled_area(&corners);
+        self.turned_away(facing(area)).map_or(Ok((corners, area)), Err)
+    }
+
+    /// Draws a triangle of projected vertices, without varyings, that no plane cuts; `None` where it has to be drawn as any
+    /// other.
+    #[inline(always)]
+    fn draw_plain<F, const N: usize>(
         &mut self,
         vertices: [&Vertex<T, N, P>; 3],
-        ranged: bool,
         fragment: &F,
     ) -> Option<Outcome>
     where
         F: Fragment<C::Color, N>,
         W: Interpolates<N>,
     {
-        if D::BITS > 16 || (D::BITS > 0 && !ranged) {
-            return None;
-        }
-        let corners = T::corners(vertices.map(|v| &v.position));
-        // Before anything is made of them: half of a mesh's triangles look away.
-        let area = doubled_area(&corners);
-        if let Some(outcome) = self.turned_away(facing(area)) {
-            return Some(outcome);
-        }
-        if F::UNIFORM && D::BITS == 0 && N == 0 {
+        let (corners, area) = match self.oriented(vertices) {
+            Ok(oriented) => oriented,
+            Err(outcome) => return Some(outcome),
+        };
+        if F::UNIFORM && D::BITS == 0 {
             return Some(self.fill_projected(&Outline::new(&corners, area > 0), fragment));
         }
-        if N == 0 {
-            // Before the outline is made: both together take more registers than there are.
-            let slopes = Slopes::new(&corners, area, T::SUBPIXEL_BITS)?;
-            let depth = self.depth_plane(&slopes, vertices);
-            let outline = Outline::new(&corners, area > 0);
-            let whole = outline.bounds(T::SUBPIXEL_BITS);
-            if self.is_small(whole) {
-                if whole.is_empty() {
-                    return Some(Outcome::OffScreen);
-                }
-                let edges = self.short_rows(&outline, whole);
-                self.draw_small(edges, whole, depth, fragment);
-                return Some(Outcome::Drawn);
-            }
-            let Some(shape) = self.shape(outline) else {
+        // Before the outline is made: both together take more registers than there are.
+        let slopes = Slopes::new(&corners, area, T::SUBPIXEL_BITS)?;
+        let depth = self.depth_plane(&slopes, vertices);
+        let outline = Outline::new(&corners, area > 0);
+        let whole = outline.bounds(T::SUBPIXEL_BITS);
+        if D::BITS > 0 && self.is_small(whole) {
+            if whole.is_empty() {
                 return Some(Outcome::OffScreen);
-            };
-            self.draw_edges::<ProjectedSide, _, _, N>(
-                &Deep { shape, depth },
-                &NoVaryings,
-                fragment,
-            );
+            }
+            let edges = self.short_rows(&outline, whole);
+            self.draw_small(edges, whole, depth, fragment);
             return Some(Outcome::Drawn);
         }
+        let Some(shape) = self.shape(outline) else {
+            return Some(Outcome::OffScreen);
+        };
+        let shape = Deep { shape, depth };
+        self.draw_edges::<ProjectedSide, _, _, N>(&shape, &NoVaryings, fragment);
+        Some(Outcome::Drawn)
+    }
+
+    /// [`draw_plain`](Self::draw_plain) with varyings. Not inlined, so that any other triangle has no stack for it.
+    #[inline(never)]
+    fn draw_varied<F, const N: usize>(
+        &mut self,
+        vertices: [&Vertex<T, N, P>; 3],
+        fragment: &F,
+    ) -> Option<Outcome>
+    where
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
+        let (corners, area) = match self.oriented(vertices) {
+            Ok(oriented) => oriented,
+            Err(outcome) => return Some(outcome),
+        };
         let Some(shape) = self.shape(Outline::new(&corners, area > 0)) else {
             return Some(Outcome::OffScreen);
         };
@@ -557,7 +579,19 @@ mod tests {
         }
     }
 
-    /// Triangles of all sizes in and around a frame, each in its colour, without depth and with it: the words of both.
+    /// A colour that is not the same everywhere.
+    #[derive(Clone, Copy)]
+    struct Checkers(u16);
+
+    impl Fragment<Rgb565, 0> for Checkers {
+        const UNIFORM: bool = false;
+
+        fn shade(&self, sample: crate::Sample<0>) -> Rgb565 {
+            Rgb565(self.0 + 600 * ((sample.x ^ sample.y) & 1) as u16)
+        }
+    }
+
+    /// Triangles of all sizes in and around a frame, each in its colour or two, without depth and with it: the words of both.
     fn draw_all<C: Target<Color = Rgb565>>(
         targets: [C; 2],
         (width, height): (u32, u32),
@@ -585,8 +619,13 @@ mod tests {
                 ClipVertex::new(x, y, z, I16F16::ONE)
             });
             let corners = corners.map(|corner| (corner, []));
-            flat.draw_triangle(corners, &Flat(Rgb565(n)));
-            deep.draw_triangle(corners, &Flat(Rgb565(n)));
+            if n % 4 == 0 {
+                flat.draw_triangle(corners, &Checkers(n));
+                deep.draw_triangle(corners, &Checkers(n));
+            } else {
+                flat.draw_triangle(corners, &Flat(Rgb565(n)));
+                deep.draw_triangle(corners, &Flat(Rgb565(n)));
+            }
         }
         [flat.into_parts().0, deep.into_parts().0]
     }
@@ -612,6 +651,29 @@ mod tests {
                     assert_eq!(row, &target.words[start..start + 64], "row {y} of {wide} wide");
                 }
             }
+        }
+    }
+
+    /// A colour of many is drawn where one is: small triangles too, without depth.
+    #[test]
+    fn colours_of_any_kind_are_drawn_without_depth() {
+        let draw =
+            |fragment: &dyn Fn(&mut Frame<Plain, crate::NoDepth, crate::NoHither, Quick<8>>)| {
+                let mut frame = Frame::new(Plain::new(16, 16)).unwrap().with_tier(Quick::<8>);
+                fragment(&mut frame);
+                frame.into_parts().0.words
+            };
+        let corner = |x: i32, y: i32| {
+            let [x, y] = [x, y].map(|v| I16F16::from_bits(v << 12));
+            (ClipVertex::new(x, y, I16F16::ZERO, I16F16::ONE), [])
+        };
+        let corners = [corner(-9, -8), corner(7, -5), corner(2, 11)];
+        let flat = draw(&|frame| _ = frame.draw_triangle(corners, &Flat(Rgb565(1))));
+        let checkers = draw(&|frame| _ = frame.draw_triangle(corners, &Checkers(1)));
+        assert!(flat.iter().filter(|&&word| word > 0).count() > 30);
+        for (n, (flat, checkers)) in flat.iter().zip(checkers).enumerate() {
+            let odd = ((n % 16) ^ (n / 16)) & 1 == 1;
+            assert_eq!(checkers, flat * if odd { 601 } else { 1 }, "pixel {n}");
         }
     }
 

@@ -260,7 +260,7 @@ mod tests {
         if area == 0 || bounds.is_empty() {
             return None;
         }
-        let slopes = Slopes::new(&corners, area, bounds, 8)?;
+        let slopes = Slopes::new(&corners, area, 8)?;
         let [a, b, c] = &vertices;
         let arcs = Arcs::new(&slopes, [a, b, c], q)?;
         let points = corners.map(|p| p.map(|p| f64::from(p) / 256.0));
