@@ -103,7 +103,7 @@ impl Slopes {
     }
 
     /// The function that is `value` at vertex 0, and twice the differences more at the other two.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn plane(&self, value: u32, differences: [i32; 2]) -> Plane {
         let x = self.gradient(differences, self.across);
         let y = self.gradient(differences, self.down);
