@@ -657,19 +657,16 @@ mod tests {
     /// A colour of many is drawn where one is: small triangles too, without depth.
     #[test]
     fn colours_of_any_kind_are_drawn_without_depth() {
-        let draw =
-            |fragment: &dyn Fn(&mut Frame<Plain, crate::NoDepth, crate::NoHither, Quick<8>>)| {
-                let mut frame = Frame::new(Plain::new(16, 16)).unwrap().with_tier(Quick::<8>);
-                fragment(&mut frame);
-                frame.into_parts().0.words
-            };
+        let frame = || Frame::new(Plain::new(16, 16)).unwrap().with_tier(Quick::<8>);
+        let (mut flat, mut checkers) = (frame(), frame());
         let corner = |x: i32, y: i32| {
             let [x, y] = [x, y].map(|v| I16F16::from_bits(v << 12));
             (ClipVertex::new(x, y, I16F16::ZERO, I16F16::ONE), [])
         };
         let corners = [corner(-9, -8), corner(7, -5), corner(2, 11)];
-        let flat = draw(&|frame| _ = frame.draw_triangle(corners, &Flat(Rgb565(1))));
-        let checkers = draw(&|frame| _ = frame.draw_triangle(corners, &Checkers(1)));
+        flat.draw_triangle(corners, &Flat(Rgb565(1)));
+        checkers.draw_triangle(corners, &Checkers(1));
+        let (flat, checkers) = (flat.into_parts().0.words, checkers.into_parts().0.words);
         assert!(flat.iter().filter(|&&word| word > 0).count() > 30);
         for (n, (flat, checkers)) in flat.iter().zip(checkers).enumerate() {
             let odd = ((n % 16) ^ (n / 16)) & 1 == 1;

@@ -132,7 +132,8 @@ impl<C: FromUnit> Fragment<C, 3> for Gouraud {
 ///
 /// With [`PackedEvery`](crate::PackedEvery) a coordinate is stepped by whole 2^-16: up to `N` of those off at the end of a
 /// straight piece for an `N` below 8, up to 64 along a line that bends, of which 32 are at its end, and up to 16 where the whole
-/// triangle is straight. A texel of a side of 1024 is 64.
+/// triangle is straight. A texel of a side of 1024 is 64. Beside a whole number, as at the sides of a texture that is shown
+/// once, a pixel of a triangle's edge may so be one of the texture's other side.
 #[derive(Debug)]
 pub struct Textured<'a, F: PixelFormat>(pub Texture<'a, F>);
 
