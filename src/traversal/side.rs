@@ -22,6 +22,7 @@
 //! Did not pay on a Cortex-M4: whole pixels and a remainder; and a half's rows drawn by a call of their own, with its
 //! edges in memory.
 
+#[cfg(any(test, not(all(target_arch = "arm", not(target_has_atomic = "32")))))]
 use crate::math::{low, signed, unsigned};
 use crate::setup::{Corner, Place};
 use crate::vertex::Rect;
