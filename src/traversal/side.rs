@@ -15,9 +15,10 @@
 //! | `dx`, `dy` | 19 |
 //! | `(h - fx) dy - dx f` | 28 |
 //!
-//! The same columns come from three ways, and each instruction set takes the cheaper: [`Line`] needs a
-//! division an edge and an addition of 64 bits a row, [`Short`] one of 32 bits, [`Digital`] no more than a division
-//! by additions, and a remainder to keep a row.
+//! The same columns come from four ways, and each instruction set takes the cheaper for each size: `Line` needs a
+//! division an edge and an addition of 64 bits a row, `Short`, for small triangles, two divisions and an addition of 32 bits;
+//! `Digital` takes no more than a division by additions, and a remainder to keep a row, and `Walked`, for small triangles,
+//! neither, but a step for each column that it passes.
 //!
 //! Did not pay on a Cortex-M4: whole pixels and a remainder; and a half's rows drawn by a call of their own, with its
 //! edges in memory.
