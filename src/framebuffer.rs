@@ -71,7 +71,7 @@ pub trait Target {
         let mut current = None;
         let colors = lanes.iter_mut().map(|lane| {
             let (mut run, done) = current.take().unwrap_or_else(|| (runs.begin(), 0));
-            let color = run.pen.color(lane);
+            let color = run.pen.color(&run.pen.brush(), lane);
             let done = done + 1;
             if done % BEND == 0 {
                 run.pen.bend(run.steps);
@@ -196,8 +196,14 @@ pub struct RunOf<P> {
 /// A run at one of its pixels.
 #[doc(hidden)]
 pub trait Pen<L, C> {
+    /// What it makes colours with.
+    type Brush;
+
+    /// That, for a chunk of pixels: read then, it takes registers in no other.
+    fn brush(&self) -> Self::Brush;
+
     /// The colour of the pixel, and on to the next.
-    fn color(&mut self, lane: &mut L) -> Option<C>;
+    fn color(&mut self, brush: &Self::Brush, lane: &mut L) -> Option<C>;
 
     /// After [`BEND`] pixels.
     fn bend(&mut self, steps: [u32; 2]);
@@ -334,8 +340,8 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
         let Some(words) = self.words.get_mut(at..at.wrapping_add(lanes.len())) else {
             return;
         };
-        let draw = |pen: &mut _, word: &mut F::Word, lane: &mut L| {
-            if let Some(color) = Pen::color(pen, lane) {
+        let draw = |pen: &mut _, brush: &_, word: &mut F::Word, lane: &mut L| {
+            if let Some(color) = Pen::color(pen, brush, lane) {
                 *word = F::encode(color);
             }
         };
@@ -366,8 +372,9 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
             (pen, state.1, state.2, rest) = (run.pen, these.iter_mut(), run.steps, others);
             for lanes in state.1.by_ref() {
                 let Some(words) = state.0.next() else { return };
+                let brush = pen.brush();
                 for (word, lane) in words.iter_mut().zip(lanes) {
-                    draw(&mut pen, word, lane);
+                    draw(&mut pen, &brush, word, lane);
                 }
                 core::hint::black_box(());
                 pen.bend(state.2);
@@ -376,8 +383,9 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
                 break;
             }
         }
+        let brush = pen.brush();
         for (word, lane) in last_words.iter_mut().zip(last_lanes) {
-            draw(&mut pen, word, lane);
+            draw(&mut pen, &brush, word, lane);
             core::hint::black_box(());
         }
     }

@@ -8,7 +8,7 @@ use crate::depth::DepthTest;
 use crate::fragment::Fragment;
 use crate::framebuffer::{BEND, Pen, RunOf, Runs, Target};
 use crate::interpolation::{Arcs, Bend, Correction};
-use crate::math::{index, unsigned};
+use crate::math::{SMALL_CORE, index, unsigned};
 use crate::setup::Tier;
 use crate::span::Span;
 use core::hint::black_box;
@@ -29,7 +29,7 @@ where
         start: usize,
         [depth, depth_step]: [u32; 2],
         rows: &R,
-        fragment: F,
+        mut fragment: F,
     ) where
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
@@ -38,9 +38,13 @@ where
         let (x, y) = (index(span.x0 + left), index(span.y + top));
         let at = start.wrapping_add(index(span.x0));
         let mut place = BentPlace { joint: rows.joint(span), span, depth, depth_step };
-        // Read anew a run: the loop over pixels wants the registers, also that which a reference from here would take.
+        // Read anew a run, and the fragment a chunk: the loop over pixels wants the registers, also those which references
+        // from here would take. On a small core reading it again costs more.
         let _ = black_box(&mut place);
-        let place = &mut place;
+        if !SMALL_CORE {
+            let _ = black_box(&mut fragment);
+        }
+        let (place, fragment) = (&mut place, &fragment);
         let row = BentRow { rows, fragment, place, kind: PhantomData::<Kind<D, N>> };
         let target = &mut self.target;
         self.depth.run(at, index(span.x1 - span.x0), move |depths| {
@@ -72,7 +76,7 @@ where
 /// A row of blocks that bend, as the target asks for them.
 struct BentRow<'a, R, F, J, T> {
     rows: &'a R,
-    fragment: F,
+    fragment: &'a F,
     place: &'a mut BentPlace<J>,
     kind: PhantomData<T>,
 }
@@ -86,9 +90,11 @@ struct BentPlace<J> {
 }
 
 /// A block's pixels with their depths.
-struct BentRun<B, F, T> {
+struct BentRun<'a, B, F, T> {
     block: B,
     fragment: F,
+    /// Where the fragment is.
+    source: &'a F,
     depth: [u32; 2],
     kind: PhantomData<T>,
 }
@@ -96,14 +102,14 @@ struct BentRun<B, F, T> {
 /// What kind of a test there is, on how many varyings.
 struct Kind<D, const N: usize>(PhantomData<D>);
 
-impl<C, D, R, F, const N: usize> Runs<D::Word, C> for BentRow<'_, R, F, R::Joint, Kind<D, N>>
+impl<'a, C, D, R, F, const N: usize> Runs<D::Word, C> for BentRow<'a, R, F, R::Joint, Kind<D, N>>
 where
     C: Copy,
     D: DepthTest,
     F: Fragment<C, N>,
     R: Rows<N, Block: Pixels<C, F, N>>,
 {
-    type Pen = BentRun<R::Block, F, Kind<D, N>>;
+    type Pen = BentRun<'a, R::Block, F, Kind<D, N>>;
 
     #[inline(always)]
     fn begin(&mut self) -> RunOf<Self::Pen> {
@@ -115,24 +121,31 @@ where
         place.depth = depth[0].wrapping_add(depth[1].wrapping_mul(unsigned(length)));
         RunOf {
             steps: [block.bend(), depth[1]],
-            pen: BentRun { block, fragment, depth, kind },
+            pen: BentRun { block, fragment: *fragment, source: fragment, depth, kind },
             bends: index(length) / BEND,
             last: place.span.x0 >= place.span.x1,
         }
     }
 }
 
-impl<C, D, B, F, const N: usize> Pen<D::Word, C> for BentRun<B, F, Kind<D, N>>
+impl<C, D, B, F, const N: usize> Pen<D::Word, C> for BentRun<'_, B, F, Kind<D, N>>
 where
     C: Copy,
     D: DepthTest,
     F: Fragment<C, N>,
     B: Pixels<C, F, N>,
 {
+    type Brush = F;
+
     #[inline(always)]
-    fn color(&mut self, stored: &mut D::Word) -> Option<C> {
+    fn brush(&self) -> F {
+        if SMALL_CORE { self.fragment } else { *self.source }
+    }
+
+    #[inline(always)]
+    fn color(&mut self, fragment: &F, stored: &mut D::Word) -> Option<C> {
         let passes = D::passes(self.depth[0], stored);
-        let color = if passes { self.block.color(&self.fragment, 0, 0) } else { None };
+        let color = if passes { self.block.color(fragment, 0, 0) } else { None };
         self.depth[0] = self.depth[0].wrapping_add(self.depth[1]);
         self.block.step();
         color
