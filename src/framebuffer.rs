@@ -119,13 +119,11 @@ pub trait Target {
         color: Self::Color,
     ) {
         let (width, _) = self.size();
-        let mut before = 0;
         for (row, (i0, i1)) in runs.enumerate() {
             if i0 < i1 {
                 let (i0, length) = run(i0, i1);
-                self.fill(x + i0 - before, y + row, length, color);
+                self.fill(x + i0 - row * width as usize, y + row, length, color);
             }
-            before += width as usize;
         }
     }
 
@@ -143,17 +141,13 @@ pub trait Target {
         P: FnMut(&mut L) -> Option<Self::Color>,
     {
         let (width, _) = self.size();
-        let mut before = 0;
         for (n, (i0, i1)) in runs.enumerate() {
             let mut color = row(i0, i1);
-            let Some(lanes) = lanes.get_mut(index(i0)..index(i1)) else {
-                before += width as usize;
-                continue;
-            };
-            let i0 = index(i0);
-            let to = (x + i0 - before, y + n, at + i0);
-            self.write_each::<_, 1>(to, lanes, |lane, _| color(lane));
-            before += width as usize;
+            let (i0, i1) = (index(i0), index(i1));
+            if let Some(lanes) = lanes.get_mut(i0..i1) {
+                let to = (x + i0 - n * width as usize, y + n, at + i0);
+                self.write_each::<_, 1>(to, lanes, |lane, _| color(lane));
+            }
         }
     }
 

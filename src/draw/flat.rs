@@ -29,7 +29,7 @@ where
         F: Fragment<C::Color, N>,
     {
         let whole = outline.bounds(T::SUBPIXEL_BITS);
-        if !self.is_small(whole) {
+        if !self.is_small_inside(whole) {
             // By value, so that a small triangle has its outline in registers.
             return self.fill_any(*outline, fragment);
         }
@@ -37,7 +37,7 @@ where
             return Outcome::OffScreen;
         }
         let color = self.uniform(whole, fragment);
-        let rows = self.short_rows(outline, whole);
+        let rows = self.small_rows(outline, whole);
         let (left, top) = self.viewport.origin;
         let (x, y) = (index(whole.x0 + left), index(whole.y0 + top));
         self.target.fill_runs(x, y, rows, color);

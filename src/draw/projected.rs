@@ -5,19 +5,18 @@ use super::lanes::{self, Lanes, Word};
 use super::shade::{NoVaryings, Pixels};
 use super::shape::Shape;
 use crate::depth::{DepthTest, projected};
-use crate::fragment::{Fragment, Sample};
+use crate::fragment::Fragment;
 use crate::framebuffer::{BEND, Target};
 use crate::interpolation::{
     Arcs, Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of, wrapped,
 };
-use crate::math::{SMALL_CORE, index, signed, unsigned};
+use crate::math::{SMALL_CORE, index, unsigned};
 use crate::setup::{Corner, Plane, Slopes, Tier};
 use crate::span::Span;
 use crate::traversal::{ProjectedSide, Rows as Edges, SMALL, Side, SmallRows};
-use crate::vertex::{Rect, Vertex};
+use crate::vertex::Vertex;
 use core::hint::black_box;
 use core::marker::PhantomData;
-use fixed::types::I16F16;
 
 /// How far off a straight line may be that is not packed, in raw steps: 2^-9.
 const STRAIGHT: u32 = 1 << 7;
@@ -150,7 +149,7 @@ where
         F: Fragment<C::Color, N>,
         R: Rows<N, Block: Pixels<C::Color, F, N>>,
     {
-        if N > 0 && shape.shape.short {
+        if shape.shape.short {
             self.draw_short(shape, rows, fragment);
         } else {
             self.draw_edges::<ProjectedSide, _, _, N>(shape, rows, fragment);
@@ -167,47 +166,6 @@ where
         let Shape { outline, bounds, .. } = &shape.shape;
         let edges = SmallRows::new(outline, *bounds, T::SUBPIXEL_BITS, 0);
         self.draw_rows::<_, _, _, N, true>(edges, bounds.y0, shape.depth, rows, fragment);
-    }
-
-    /// Draws the pixels of a small triangle without varyings that is all in the window, of which this is the box.
-    #[inline(always)]
-    pub(super) fn draw_small<F, const N: usize>(
-        &mut self,
-        edges: SmallRows,
-        whole: Rect,
-        depth: Plane,
-        fragment: &F,
-    ) where
-        F: Fragment<C::Color, N>,
-    {
-        let (left, top) = self.viewport.origin;
-        let (width, _) = self.target.size();
-        let (x, y) = (index(whole.x0 + left), index(whole.y0 + top));
-        let at = y.wrapping_mul(width as usize).wrapping_add(x);
-        let fragment = *fragment;
-        // Of pixel 0 of the rows.
-        let mut z = depth.at(whole.x0, whole.y0);
-        let down = depth.y.wrapping_sub(depth.x.wrapping_mul(width));
-        let (mut row, mut column) = (whole.y0, whole.x0);
-        let target = &mut self.target;
-        self.depth.from(at, move |depths| {
-            target.write_runs((x, y, at), depths, edges, move |i0, i1| {
-                let span = Span { y: row, x0: column + i0, x1: column + i1 };
-                let mut z_here = z.wrapping_add(depth.x.wrapping_mul(unsigned(i0)));
-                row += 1;
-                column -= signed(width);
-                z = z.wrapping_add(down);
-                let mut x = span.x0;
-                move |stored: &mut D::Word| {
-                    let passes = D::passes(z_here, stored);
-                    z_here = z_here.wrapping_add(depth.x);
-                    let varyings = [I16F16::ZERO; N];
-                    let color = passes.then(|| fragment.shade(Sample { x, y: span.y, varyings }));
-                    x += 1;
-                    color
-                }
-            });
-        });
     }
 
     /// Draws the pixels of a shape, whose edges are followed by `S`.

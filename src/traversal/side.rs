@@ -35,7 +35,8 @@ pub(crate) trait Side: Copy + core::fmt::Debug {
     /// What it goes between.
     type Corner: Place;
 
-    /// The edge from `upper` to `lower` in subpixels of `bits` bits on row `row`, which it has.
+    /// The edge from `upper` to `lower` in subpixels of `bits` bits on row `row`; anything where it does not have that row, as
+    /// then it is not asked for a column.
     fn new(upper: Self::Corner, lower: Self::Corner, row: i32, bits: u32) -> Self;
 
     /// The first column whose centre is not left of the edge.
@@ -142,6 +143,7 @@ impl Side for Line {
         let mut at = (i64::from(column + 1) << 32) - e - i64::from(inverse >> 1);
         let rows = row - upper.row(bits);
         if rows > 0 {
+            // Also past its end: a slope is at most 2^51, and a row fewer than 2^11 below the corner.
             at += slope * i64::from(rows);
         }
         Self { at, slope }
