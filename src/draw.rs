@@ -1,6 +1,7 @@
 //! The front door: a frame that triangles and meshes are drawn into, and what became of each.
 
 mod bent;
+mod divided;
 mod flat;
 mod frame;
 mod homogeneous;
@@ -16,7 +17,7 @@ use crate::clip::Hither;
 use crate::depth::{DepthPlane, DepthTest};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
-use crate::interpolation::{Correction, Interpolates, Varyings};
+use crate::interpolation::{Correction, Interpolates, Varyings, Width};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
 use crate::setup::{Facing, Outline, Part, Setup, Slopes, Tier, doubled_area, facing};
 use crate::traversal::{ClipWalk, ProjectedSide, is_small};
@@ -208,7 +209,10 @@ where
         }
         let outcome = if !T::PROJECTS {
             self.draw_homogeneous(vertices, any, fragment)
-        } else if D::BITS > 16 || (D::BITS > 0 && all & Outside::RANGED == 0) {
+        } else if D::BITS > 16
+            || (D::BITS > 0 && all & Outside::RANGED == 0)
+            || (N > 0 && I::WIDTH == Width::Long)
+        {
             None
         } else if N == 0 {
             self.draw_plain(vertices, fragment)

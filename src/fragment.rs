@@ -39,7 +39,7 @@ pub trait Fragment<C: Copy, const N: usize>: Copy {
     /// varyings, unless a shader looks at the pixel's position.
     const UNIFORM: bool = N == 0;
 
-    /// How far off varyings may be, in raw steps of 2^-16, where [`PackedEvery`](crate::PackedEvery) takes a straight line
+    /// How far off varyings may be, in raw steps of 2^-16, where [`Packed`](crate::Packed) takes a straight line
     /// over a triangle for a curve: 2^-9, an eighth of a texel on a side of 64.
     const TOLERANCE: u32 = 1 << 7;
 
@@ -54,12 +54,18 @@ pub trait Fragment<C: Copy, const N: usize>: Copy {
     #[doc(hidden)]
     const WRAPS: bool = false;
 
-    /// The colour of such a word; where it has none, the pixel keeps what it was.
+    /// The colour of such a word at column `x` of row `y`, which texture coordinates are not told; where it has none, the
+    /// pixel keeps what it was.
     #[doc(hidden)]
     #[inline]
-    fn shade_lanes(&self, _: u32) -> Option<C> {
+    fn shade_lanes(&self, _: u32, _: i32, _: i32) -> Option<C> {
         None
     }
+
+    /// Whether the pixel's place changes its colour by up to half a step either way, so that lanes have to be as near as
+    /// those that are stepped each by itself.
+    #[doc(hidden)]
+    const DITHERED: bool = false;
 
     /// The shader of a face, by its index in the mesh; 0 for a single triangle.
     #[inline]
@@ -118,7 +124,7 @@ impl<C: FromUnit> Fragment<C, 3> for Gouraud {
     const LANES: Option<[Lane; 3]> = C::LANES;
 
     #[inline]
-    fn shade_lanes(&self, word: u32) -> Option<C> {
+    fn shade_lanes(&self, word: u32, _: i32, _: i32) -> Option<C> {
         Some(C::from_lanes(word))
     }
 
@@ -130,7 +136,7 @@ impl<C: FromUnit> Fragment<C, 3> for Gouraud {
 
 /// Colour from a texture, nearest texel, by two varyings `u` and `v`: see [`Texture`].
 ///
-/// With [`PackedEvery`](crate::PackedEvery) a coordinate is stepped by whole 2^-16: up to `N` of those off at the end of a
+/// With [`Packed`](crate::Packed) a coordinate is stepped by whole 2^-16: up to `N` of those off at the end of a
 /// straight piece for an `N` below 8, up to 64 along a line that bends, of which 32 are at its end, and up to 16 where the whole
 /// triangle is straight. A texel of a side of 1024 is 64. Beside a whole number, as at the sides of a texture that is shown
 /// once, a pixel of a triangle's edge may so be one of the texture's other side.
@@ -158,7 +164,7 @@ where
     const WRAPS: bool = true;
 
     #[inline]
-    fn shade_lanes(&self, word: u32) -> Option<F::Color> {
+    fn shade_lanes(&self, word: u32, _: i32, _: i32) -> Option<F::Color> {
         self.0.nearest_of_fractions(word)
     }
 }

@@ -24,18 +24,25 @@
 //! of 64 bits a varying, whose high word is the value.
 
 mod arcs;
+mod correction;
 mod plane;
 mod quotient;
+mod reciprocal;
 
 use crate::clip::{Hither, WRange};
-use crate::math::{Factor, Scale, low, reciprocal, saturate, shr_round};
+use crate::math::{Factor, Scale, low, saturate, shr_round};
 use crate::setup::Setup;
 use crate::span::Span;
 use crate::vertex::{Outside, Position, ScaleOf, Snap, Vertex};
 pub(crate) use arcs::{Arcs, Bend};
+use core::marker::PhantomData;
+pub use correction::{
+    Affine, Correction, DividedBy, Packed, Perspective, PerspectiveEvery, Wide, Width,
+};
 use fixed::types::I16F16;
 pub(crate) use plane::{Line, Linear, Pieces, is_straight, nearness_of, wrapped};
 pub(crate) use quotient::{Followed, Level, Quotients, Slope};
+pub use reciprocal::{Division, Float, Newton, Reciprocal, Table};
 
 /// Pixels that are stepped from one exact start, where each is divided.
 pub(crate) const BLOCK: i32 = 64;
@@ -61,67 +68,6 @@ impl<const N: usize> Interpolates<N> for Hither {
     fn hither(&self) -> Option<Hither> {
         Some(*self)
     }
-}
-
-/// How varyings are corrected for perspective: [`Perspective`], [`PerspectiveEvery`], [`PackedEvery`] or [`Affine`].
-pub trait Correction: Copy + Default + core::fmt::Debug {
-    /// Pixels between two divisions: 1, or the length of a straight piece.
-    const EVERY: i32;
-    /// Whether triangles wholly in front of the hither plane are interpolated linearly on the
-    /// screen.
-    const AFFINE: bool;
-    /// Whether varyings may be stepped as one word, and straight lines be as far off as a fragment allows.
-    const PACKED: bool = false;
-}
-
-/// Each pixel is divided: within 2^-10 of an attribute's range for `w` up to 4096 hither distances.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Perspective;
-
-/// Two divisions every `N` pixels, straight lines between: `N` is 2 to 64. Where one straight line over the whole
-/// triangle is at most 2^-9 off (an eighth of a texel on a side of 64, a sixteenth of a step of 5-bit colour), there is no
-/// division.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PerspectiveEvery<const N: u8>;
-
-/// [`PerspectiveEvery`] for speed: in the quick tiers what a pixel is made of is stepped as one word where it fits, colours
-/// within a step of RGB565, texture coordinates to 2^-16; and a straight line over the whole triangle may be as far off
-/// as the fragment allows ([`Fragment::TOLERANCE`](crate::Fragment::TOLERANCE)).
-///
-/// Texture coordinates with `N` of 8 or more: where `1 / w` changes by at most half of itself along 32 pixels, those are
-/// divided for once, and the line bends every 8, which is about as near as straight lines of 8; elsewhere lines are straight
-/// and 8 long, for an `N` above as well.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PackedEvery<const N: u8>;
-
-/// No correction: linear on the screen, for triangles with no vertex behind the hither plane.
-/// Another triangle is divided at each pixel, and counted in
-/// [`Counts::fallbacks`](crate::Counts::fallbacks).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Affine;
-
-impl Correction for Perspective {
-    const EVERY: i32 = 1;
-    const AFFINE: bool = false;
-}
-
-impl<const N: u8> Correction for PerspectiveEvery<N> {
-    const EVERY: i32 = {
-        assert!(N >= 2 && N <= 64, "PerspectiveEvery<N>: N is 2 to 64");
-        N as i32
-    };
-    const AFFINE: bool = false;
-}
-
-impl<const N: u8> Correction for PackedEvery<N> {
-    const EVERY: i32 = PerspectiveEvery::<N>::EVERY;
-    const AFFINE: bool = false;
-    const PACKED: bool = true;
-}
-
-impl Correction for Affine {
-    const EVERY: i32 = 1;
-    const AFFINE: bool = true;
 }
 
 /// How one triangle's varyings run along a row.
@@ -247,10 +193,10 @@ struct Inverse {
 impl Inverse {
     /// Of `q`, Q30; `q <= 0` counts as 2^-30.
     #[inline]
-    fn new(q: i32) -> Self {
+    fn new<R: Reciprocal>(q: i32) -> Self {
         let q = q.max(1);
         let zeros = q.leading_zeros();
-        Self { q, reciprocal: reciprocal(q.unsigned_abs() << zeros), zeros }
+        Self { q, reciprocal: R::of(q.unsigned_abs() << zeros), zeros }
     }
 
     /// `n / q`, Q30, clamped to `[-1, 1]`.
@@ -343,7 +289,7 @@ impl<const N: usize> Varyings<N> {
         let (n, q) = self.at(setup, x, y);
         let mut quotients = n;
         if C::EVERY > 1 && self.mode != Mode::Linear {
-            let inverse = Inverse::new(q);
+            let inverse = Inverse::new::<C::Reciprocal>(q);
             for quotient in &mut quotients {
                 *quotient = inverse.any_quotient(*quotient);
             }
@@ -389,9 +335,9 @@ impl<const N: usize> Varyings<N> {
 
     /// The divided run of a block.
     #[inline]
-    pub(crate) fn divided(&self, setup: &Setup, block: Span) -> Divided<'_, N> {
+    pub(crate) fn divided<R: Reciprocal>(&self, setup: &Setup, block: Span) -> Divided<'_, R, N> {
         let (n, q) = self.at(setup, block.x0, block.y);
-        Divided { varyings: self, n, q }
+        Divided { varyings: self, n, q, reciprocal: PhantomData }
     }
 }
 
@@ -484,10 +430,11 @@ pub(crate) struct Ramp<const N: usize> {
 
 /// Varyings divided at each pixel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Divided<'a, const N: usize> {
+pub(crate) struct Divided<'a, R, const N: usize> {
     varyings: &'a Varyings<N>,
     n: [i32; N],
     q: i32,
+    reciprocal: PhantomData<R>,
 }
 
 impl<const N: usize> Run<N> for Ramp<N> {
@@ -505,10 +452,10 @@ impl<const N: usize> Run<N> for Ramp<N> {
     }
 }
 
-impl<const N: usize> Run<N> for Divided<'_, N> {
+impl<R: Reciprocal, const N: usize> Run<N> for Divided<'_, R, N> {
     #[inline]
     fn varyings(&self) -> [I16F16; N] {
-        let inverse = Inverse::new(self.q);
+        let inverse = Inverse::new::<R>(self.q);
         let mut values = [I16F16::ZERO; N];
         for ((value, varying), n) in values.iter_mut().zip(&self.varyings.each).zip(self.n) {
             *value = varying.value(varying.limited(inverse.quotient(n)));
@@ -530,7 +477,7 @@ mod tests {
     use super::*;
 
     fn quotient(n: i32, q: i32) -> i32 {
-        Inverse::new(q).quotient(n)
+        Inverse::new::<Newton<2>>(q).quotient(n)
     }
 
     #[test]

@@ -88,6 +88,7 @@ mod buffer;
 mod clip;
 mod color;
 mod depth;
+mod dither;
 mod draw;
 #[cfg(feature = "embedded-graphics")]
 mod eg;
@@ -110,20 +111,22 @@ pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 pub use color::Lane;
 pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};
 pub use depth::{Always, Compare, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
+pub use dither::Dithered;
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 pub use fixed;
 pub use fixed::types::I16F16;
 pub use fragment::{FaceColors, Flat, Fragment, Gouraud, Sample, Textured};
 pub use framebuffer::{Framebuffer, Target};
 pub use interpolation::{
-    Affine, Correction, Interpolates, PackedEvery, Perspective, PerspectiveEvery,
+    Affine, Correction, DividedBy, Division, Float, Interpolates, Newton, Packed, Perspective,
+    PerspectiveEvery, Reciprocal, Table, Wide, Width,
 };
 pub use mesh::{AsVaryings, Lit, Mesh, MeshError, NormalColor, StoredPosition, VertexStage};
 pub use setup::{Cull, Facing, Tier};
 pub use texture::{Texture, TextureSize};
 #[cfg(feature = "micromath")]
 pub use transform::FloatError;
-pub use transform::{Angle, Mat4, MatrixError, ModelPosition, SinCos, Vec3};
+pub use transform::{Angle, Mat4, MatrixError, ModelPosition, ShortMat4, SinCos, Vec3};
 pub use vertex::{
     ClipVertex, Exact, ExactPosition, Position, Quick, QuickPosition, Rect, Snap, Snapped, Vertex,
     Viewport, ViewportSize,

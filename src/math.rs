@@ -96,7 +96,7 @@ pub(crate) fn high_product(a: i32, b: i32) -> i32 {
 }
 
 /// First approximations of `2^40 / m` for `m` in `[2^31, 2^32)`, by the seven bits below the
-/// leading one: `round(2^17 / (257 + 2 i)) - 256`, which is off by at most 1 part in 2^8.
+/// leading one: `round(2^17 / (257 + 2 i)) - 256`, which is off by at most 1 part in 2^7.6.
 const SEED: [u8; 128] = seed();
 
 #[expect(clippy::cast_possible_truncation, reason = "entries are 0 to 254; a test recomputes them")]
@@ -173,12 +173,26 @@ fn seed_by_division(m: u32) -> u32 {
     (131_072 + d / 2).checked_div(d).unwrap_or(0)
 }
 
+/// `2^40 / m` for `m` in `[2^31, 2^32)`, to one part in 2^7.6: 2^8 to 2^9.
+#[inline]
+pub(crate) fn reciprocal_seed(m: u32) -> u32 {
+    if SMALL_CORE { seed_of(m) } else { seed_by_division(m) }
+}
+
+/// `2^63 / m` for `m` in `[2^31, 2^32)` by a division of 32 by 16 bits, never below, and the Newton step of
+/// [`reciprocal`].
+#[inline]
+pub(crate) fn reciprocal_by_division(m: u32) -> u32 {
+    let x = u32::MAX.checked_div(m >> 16).unwrap_or(0);
+    if SMALL_CORE { refined_split(x, m) } else { refined(x, m) }
+}
+
 /// `2^48 / m` for `m` in `[2^31, 2^32)`, to one part in 2^15: a seed of 9 bits, then a Newton
 /// step. The result is in `[2^16, 2^17)`.
 #[inline]
 #[expect(clippy::cast_sign_loss, reason = "2^16 to 2^17")]
 pub(crate) fn reciprocal_estimate(m: u32) -> u32 {
-    let x = bits(if SMALL_CORE { seed_of(m) } else { seed_by_division(m) });
+    let x = bits(reciprocal_seed(m));
     // 1/2 - x f, with f = m / 2^32 cut to 16 bits: Q25, at most 2^17 + 2^9.
     let error = (1 << 24) - x * bits(m >> 16);
     // Q17: x + 2 x error.

@@ -5,7 +5,7 @@ mod light;
 
 pub use light::{Lit, NormalColor};
 
-use crate::transform::{Mat4, ModelPosition};
+use crate::transform::{Mat4, ModelPosition, ShortMat4};
 use crate::vertex::ClipVertex;
 use fixed::types::I16F16;
 
@@ -233,6 +233,13 @@ pub(crate) fn unit(byte: u8) -> I16F16 {
 }
 
 impl<A: AsVaryings<N>, const N: usize> VertexStage<A, N> for Mat4 {
+    #[inline(always)]
+    fn vertex(&self, position: ModelPosition, attribute: &A) -> (ClipVertex, [I16F16; N]) {
+        (self.transform(position), attribute.varyings())
+    }
+}
+
+impl<A: AsVaryings<N>, const N: usize> VertexStage<A, N> for ShortMat4 {
     #[inline(always)]
     fn vertex(&self, position: ModelPosition, attribute: &A) -> (ClipVertex, [I16F16; N]) {
         (self.transform(position), attribute.varyings())

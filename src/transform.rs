@@ -12,10 +12,12 @@
 mod angle;
 #[cfg(feature = "micromath")]
 mod float;
+mod short;
 
 pub use angle::{Angle, SinCos};
 #[cfg(feature = "micromath")]
 pub use float::FloatError;
+pub use short::ShortMat4;
 
 use crate::math::{low, shr_round, signed, unsigned};
 use crate::vertex::ClipVertex;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
     "math",
     "color",
     "buffer",
@@ -19,6 +19,7 @@ const ORDER: [&str; 18] = [
     "texture",
     "framebuffer",
     "fragment",
+    "dither",
     "mesh",
     "draw",
     "band",

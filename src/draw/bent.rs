@@ -7,7 +7,7 @@ use super::shade::Pixels;
 use crate::depth::DepthTest;
 use crate::fragment::Fragment;
 use crate::framebuffer::{BEND, Pen, RunOf, Runs, Target};
-use crate::interpolation::{Arcs, Bend, Correction};
+use crate::interpolation::{Arcs, Bend, Correction, Reciprocal};
 use crate::math::{SMALL_CORE, index, unsigned};
 use crate::setup::Tier;
 use crate::span::Span;
@@ -158,7 +158,7 @@ where
     }
 }
 
-impl<const N: usize> Rows<N> for Arcs<N> {
+impl<R: Reciprocal, const N: usize> Rows<N> for Arcs<R, N> {
     type Block = Bent;
     type Joint = Bend<N>;
     const LONGEST: i32 = 0;

@@ -1,6 +1,7 @@
 //! Triangles on the exact tier's grid: what is decided before anything is made of them, and those that are on the screen.
 
-use super::lanes::{Channels, Divided, Lanes};
+use super::divided::Separate;
+use super::lanes::Lanes;
 use super::projected::{Begins, Deep};
 use super::shade::NoVaryings;
 use super::shape::Shape;
@@ -8,7 +9,7 @@ use super::{Frame, Outcome};
 use crate::depth::DepthTest;
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
-use crate::interpolation::{Correction, Followed, Interpolates, Level, Quotients, Slope, same_w};
+use crate::interpolation::{Correction, Interpolates, Level, Slope, Width, same_w};
 use crate::setup::{Anchored, Facing, Slopes, Tier, determinant, outline};
 use crate::traversal::Stepped;
 use crate::vertex::{Outside, Vertex};
@@ -53,7 +54,7 @@ where
             return Some(self.fill_within::<Stepped, F, N>(&outline, whole, fragment));
         }
         let level = I::AFFINE || same_w(vertices);
-        if N > 0 && !level && I::EVERY > 1 {
+        if N > 0 && (I::WIDTH == Width::Long || (!level && I::EVERY > 1)) {
             return None;
         }
         let whole = outline.bounds();
@@ -69,7 +70,7 @@ where
         } else if level {
             self.draw_level(&shape, &slopes, vertices, fragment)?;
         } else {
-            self.draw_divided(&shape, &slopes, vertices, fragment)?;
+            self.draw_divided::<Stepped, _, N>(&shape, &slopes, vertices, fragment)?;
         }
         Some(Outcome::Drawn)
     }
@@ -94,40 +95,6 @@ where
         }
         Some(())
     }
-
-    /// Draws a shape whose varyings are divided at each pixel.
-    #[inline]
-    fn draw_divided<F, const N: usize>(
-        &mut self,
-        shape: &Deep<Anchored>,
-        slopes: &Slopes,
-        vertices: [&Vertex<T, N, P>; 3],
-        fragment: &F,
-    ) -> Option<()>
-    where
-        F: Fragment<C::Color, N>,
-    {
-        let channels = F::LANES.and_then(|lanes| Quotients::channels(slopes, vertices, lanes));
-        if let Some(channels) = channels {
-            self.draw_edges::<Stepped, _, _, N>(shape, &EachChannel(&channels), fragment);
-        } else {
-            let quotients = Quotients::new(slopes, vertices)?;
-            self.draw_edges::<Stepped, _, _, N>(shape, &&quotients, fragment);
-        }
-        Some(())
-    }
-}
-
-/// Lanes as channels, each by itself.
-struct Separate<C, F, const N: usize>(Lanes<C, F, N>);
-
-impl<C: Copy, F: Fragment<C, N>, const N: usize> Begins<N> for Separate<C, F, N> {
-    type Block = Channels<N>;
-
-    #[inline]
-    fn begin(&self, x: i32, y: i32) -> Channels<N> {
-        self.0.channels(x, y)
-    }
 }
 
 impl<'a, const N: usize> Begins<N> for &'a Level<N> {
@@ -136,26 +103,5 @@ impl<'a, const N: usize> Begins<N> for &'a Level<N> {
     #[inline]
     fn begin(&self, x: i32, y: i32) -> Slope<'a, N> {
         self.from(x, y)
-    }
-}
-
-impl<'a, const N: usize> Begins<N> for &'a Quotients<N> {
-    type Block = Followed<'a, N>;
-
-    #[inline]
-    fn begin(&self, x: i32, y: i32) -> Followed<'a, N> {
-        self.from(x, y)
-    }
-}
-
-/// Channels divided at each pixel.
-struct EachChannel<'a, const N: usize>(&'a Quotients<N>);
-
-impl<'a, const N: usize> Begins<N> for EachChannel<'a, N> {
-    type Block = Divided<'a, N>;
-
-    #[inline]
-    fn begin(&self, x: i32, y: i32) -> Divided<'a, N> {
-        Divided(self.0.from(x, y))
     }
 }

@@ -7,7 +7,7 @@
 
 use super::shade::Pixels;
 use crate::fragment::Fragment;
-use crate::interpolation::{Followed, Run};
+use crate::interpolation::{Followed, Reciprocal, Run};
 use crate::math::{signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Snap, Vertex};
@@ -51,7 +51,7 @@ pub(super) struct Channels<const N: usize> {
 
 /// Channels that are divided at each pixel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Divided<'a, const N: usize>(pub(super) Followed<'a, N>);
+pub(super) struct Divided<'a, R, const N: usize>(pub(super) Followed<'a, R, N>);
 
 impl<C: Copy, F: Fragment<C, N>, const N: usize> Lanes<C, F, N> {
     /// The planes through three vertices whose varyings are in `[0, 1]`, where they have some.
@@ -100,8 +100,8 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
     const AT_ONCE: usize = 2;
 
     #[inline]
-    fn color(&self, fragment: &F, _: i32, _: i32) -> Option<C> {
-        fragment.shade_lanes(self.at)
+    fn color(&self, fragment: &F, x: i32, y: i32) -> Option<C> {
+        fragment.shade_lanes(self.at, x, y)
     }
 
     #[inline]
@@ -114,8 +114,8 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Bent {
     const AT_ONCE: usize = 1;
 
     #[inline]
-    fn color(&self, fragment: &F, _: i32, _: i32) -> Option<C> {
-        fragment.shade_lanes(self.at)
+    fn color(&self, fragment: &F, x: i32, y: i32) -> Option<C> {
+        fragment.shade_lanes(self.at, x, y)
     }
 
     #[inline]
@@ -138,12 +138,12 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N>
     const AT_ONCE: usize = 1;
 
     #[inline]
-    fn color(&self, fragment: &F, _: i32, _: i32) -> Option<C> {
+    fn color(&self, fragment: &F, x: i32, y: i32) -> Option<C> {
         let mut word = 0;
         for (lane, at) in F::LANES.iter().flatten().zip(self.at) {
             word |= at >> (32 - lane.width) << lane.place;
         }
-        fragment.shade_lanes(word)
+        fragment.shade_lanes(word, x, y)
     }
 
     #[inline]
@@ -154,16 +154,18 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Channels<N>
     }
 }
 
-impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Divided<'_, N> {
+impl<C: Copy, F: Fragment<C, N>, R: Reciprocal, const N: usize> Pixels<C, F, N>
+    for Divided<'_, R, N>
+{
     const AT_ONCE: usize = 1;
 
     #[inline]
-    fn color(&self, fragment: &F, _: i32, _: i32) -> Option<C> {
+    fn color(&self, fragment: &F, x: i32, y: i32) -> Option<C> {
         let mut word = 0;
         for (lane, at) in F::LANES.iter().flatten().zip(self.0.fractions()) {
             word |= at >> (24 - lane.width) << lane.place;
         }
-        fragment.shade_lanes(word)
+        fragment.shade_lanes(word, x, y)
     }
 
     #[inline]
@@ -176,7 +178,7 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Divided<'_,
 mod tests {
     use crate::{
         ClipVertex, DepthBuffer, Fragment, Frame, Framebuffer, Gouraud, Hither, I16F16, Outcome,
-        PackedEvery, Quick, Rgb565, Snapped, Target, Texture, Textured, Vertex,
+        Packed, PerspectiveEvery, Quick, Rgb565, Snapped, Target, Texture, Textured, Vertex,
     };
     use std::vec::Vec;
 
@@ -192,7 +194,7 @@ mod tests {
         let buffer = Framebuffer::<Rgb565>::try_new(&mut words, SIDE, SIDE).unwrap();
         let hither = Hither::new(I16F16::ONE).unwrap();
         let frame = Frame::new(buffer).unwrap().with_tier(Quick::<8>).with_hither(hither);
-        let mut frame = frame.with_correction(PackedEvery::<16>);
+        let mut frame = frame.with_correction(Packed(PerspectiveEvery::<16>));
         let vertices: [Vertex<_, N>; 3] = corners.map(|([x, y], varyings)| {
             let at = |v: i32| I16F16::from_bits(v << 9);
             frame.snap(&ClipVertex::new(at(x), at(y), I16F16::ZERO, I16F16::ONE), varyings)
@@ -338,7 +340,8 @@ mod tests {
             macro_rules! draw {
                 ($target:expr, $depth:expr) => {{
                     let frame = Frame::new($target).unwrap().with_tier(Quick::<8>);
-                    let frame = frame.with_hither(hither).with_correction(PackedEvery::<8>);
+                    let frame =
+                        frame.with_hither(hither).with_correction(Packed(PerspectiveEvery::<8>));
                     $depth(frame).draw_triangle(clips, &texture);
                 }};
             }

@@ -1,6 +1,7 @@
 //! Projected triangles with depth or varyings that have planes: from corners to pixels, and nothing in between.
 
 use super::Frame;
+use super::divided::Separate;
 use super::lanes::{self, Lanes, Word};
 use super::shade::{NoVaryings, Pixels};
 use super::shape::Shape;
@@ -8,7 +9,7 @@ use crate::depth::{DepthTest, projected};
 use crate::fragment::Fragment;
 use crate::framebuffer::{BEND, Target};
 use crate::interpolation::{
-    Arcs, Correction, Interpolates, Line, Linear, Pieces, is_straight, nearness_of, wrapped,
+    Arcs, Correction, Interpolates, Line, Linear, Pieces, Width, is_straight, nearness_of, wrapped,
 };
 use crate::math::{SMALL_CORE, index, unsigned};
 use crate::setup::{Corner, Plane, Slopes, Tier};
@@ -105,39 +106,44 @@ where
     {
         let hither = self.range.hither()?;
         let q = nearness_of(vertices, hither);
+        let packed = I::WIDTH == Width::Packed;
         let tolerance = match I::EVERY {
             1 => 0,
-            _ if I::PACKED => F::TOLERANCE,
+            _ if packed => F::TOLERANCE,
             _ => STRAIGHT,
         };
         if I::AFFINE || is_straight(vertices, q, tolerance) {
-            if I::PACKED {
+            if packed {
                 if let Some(lanes) = Lanes::<C::Color, F, N>::new(slopes, vertices) {
-                    self.draw_shape(shape, &lanes, fragment);
+                    if F::DITHERED {
+                        self.draw_shape(shape, &Separate(lanes), fragment);
+                    } else {
+                        self.draw_shape(shape, &lanes, fragment);
+                    }
                     return Some(());
                 }
             }
             let linear = Linear::new(slopes, vertices)?;
-            if F::WRAPS && I::PACKED {
+            if F::WRAPS && packed {
                 self.draw_shape(shape, &Wrapped(linear), fragment);
             } else {
                 self.draw_shape(shape, &linear, fragment);
             }
         } else if I::EVERY > 1 {
-            if F::WRAPS && I::PACKED && index(I::EVERY) >= BEND {
-                let arcs = Arcs::new(slopes, vertices, q)?;
+            if F::WRAPS && packed && index(I::EVERY) >= BEND {
+                let arcs = Arcs::<I::Reciprocal, N>::new(slopes, vertices, q)?;
                 // Few that are short are not straight: one copy is enough.
                 self.draw_edges::<ProjectedSide, _, _, N>(shape, &arcs, fragment);
                 return Some(());
             }
             let pieces = Every::<_, I>(Pieces::new(slopes, vertices, q)?, PhantomData);
-            if F::WRAPS && I::PACKED {
+            if F::WRAPS && packed {
                 self.draw_shape(shape, &Wrapped(pieces), fragment);
             } else {
                 self.draw_shape(shape, &pieces, fragment);
             }
         } else {
-            return None;
+            self.draw_divided::<ProjectedSide, _, N>(shape, slopes, vertices, fragment)?;
         }
         Some(())
     }
@@ -382,7 +388,7 @@ struct Piece<const N: usize> {
     length: i32,
 }
 
-impl<I: Correction, const N: usize> Every<Pieces<N>, I> {
+impl<I: Correction, const N: usize> Every<Pieces<I::Reciprocal, N>, I> {
     /// The piece at the start of what is left of a row; `joint` has the values there, and then those of the next.
     #[inline]
     fn piece(&self, span: Span, joint: &mut [i32; N]) -> Piece<N> {
@@ -397,7 +403,7 @@ impl<I: Correction, const N: usize> Every<Pieces<N>, I> {
     }
 }
 
-impl<I: Correction, const N: usize> Rows<N> for Wrapped<Every<Pieces<N>, I>> {
+impl<I: Correction, const N: usize> Rows<N> for Wrapped<Every<Pieces<I::Reciprocal, N>, I>> {
     type Block = Word;
     type Joint = [i32; N];
     const LONGEST: i32 = I::EVERY;
@@ -415,7 +421,7 @@ impl<I: Correction, const N: usize> Rows<N> for Wrapped<Every<Pieces<N>, I>> {
     }
 }
 
-impl<I: Correction, const N: usize> Rows<N> for Every<Pieces<N>, I> {
+impl<I: Correction, const N: usize> Rows<N> for Every<Pieces<I::Reciprocal, N>, I> {
     type Block = Line<N>;
     /// The values where the next piece begins.
     type Joint = [i32; N];

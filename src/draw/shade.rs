@@ -151,7 +151,12 @@ where
             None if N == 0 => self.draw_run(block, NoVaryings, depth, shading.fragment),
             None => {}
             Some(v) if v.mode() == Mode::Divided && I::EVERY == 1 => {
-                self.draw_run(block, v.divided(setup, block), depth, shading.fragment);
+                self.draw_run(
+                    block,
+                    v.divided::<I::Reciprocal>(setup, block),
+                    depth,
+                    shading.fragment,
+                );
             }
             Some(v) => {
                 let ramp = v.ramp::<I>(setup, block, more, joint);

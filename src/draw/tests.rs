@@ -5,7 +5,7 @@ use crate::color::Rgb565;
 use crate::depth::DepthBuffer;
 use crate::fragment::{FaceColors, Flat, Sample};
 use crate::framebuffer::Framebuffer;
-use crate::interpolation::PackedEvery;
+use crate::interpolation::{Packed, PerspectiveEvery};
 use crate::vertex::{Quick, Viewport};
 use std::vec;
 use std::vec::Vec;
@@ -64,7 +64,7 @@ fn draw_all<C: Target<Color = Rgb565>>(
     let mut flat = Frame::with_viewport(flat, viewport).with_tier(Quick::<8>);
     let deep = Frame::with_viewport(deep, viewport).with_tier(Quick::<8>).with_hither(hither);
     let depth = DepthBuffer::try_new(&mut depths, width, height).unwrap();
-    let mut deep = deep.with_depth(depth).unwrap().with_correction(PackedEvery::<8>);
+    let mut deep = deep.with_depth(depth).unwrap().with_correction(Packed(PerspectiveEvery::<8>));
     let mut state = 1u64;
     let mut below = move |n: i32| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);

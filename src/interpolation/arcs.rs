@@ -26,12 +26,12 @@
 //! `values_are_as_near_as_promised` in this file asserts all of it. Varyings that change by more than two a pixel bend by
 //! anything.
 
+use super::Reciprocal;
 use super::plane::{Nearness, raw, word};
-use crate::math::{
-    high_product_16, index, low, normalized, product, reciprocal_below, signed, unsigned,
-};
+use crate::math::{high_product_16, index, low, normalized, product, signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Snap, Vertex};
+use core::marker::PhantomData;
 
 /// Pixels of an arc.
 const LONG: i32 = 32;
@@ -55,7 +55,7 @@ const fn inverses() -> [i32; 32] {
 
 /// Varyings of a triangle in perspective, modulo 1.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Arcs<const N: usize> {
+pub(crate) struct Arcs<R, const N: usize> {
     q: Plane,
     each: [Plane; N],
     /// Quotients of 30 bits are raw steps times this power of two.
@@ -64,6 +64,7 @@ pub(crate) struct Arcs<const N: usize> {
     base: u32,
     /// What `q` is where an arc can be long, at least: twice what it changes by along one.
     least: u32,
+    reciprocal: PhantomData<R>,
 }
 
 /// Where an arc ends and the next begins.
@@ -78,7 +79,7 @@ pub(crate) struct Bend<const N: usize> {
 /// A word, its step a pixel, and what the step bends by.
 type Arc = [u32; 3];
 
-impl<const N: usize> Arcs<N> {
+impl<R: Reciprocal, const N: usize> Arcs<R, N> {
     /// The planes through three vertices, where they have some.
     #[inline]
     pub(crate) fn new<T: Snap, const P: usize>(
@@ -106,6 +107,7 @@ impl<const N: usize> Arcs<N> {
             shift: room - 2,
             base: word(all.map(|[u, _, _]| u)),
             least: 0,
+            reciprocal: PhantomData,
         };
         for (each, [u, v, w]) in arcs.each.iter_mut().zip(all) {
             let n = |d: i32, half: i32| low(product((2 * d + 1) << (room - 2), half) >> 31);
@@ -122,7 +124,7 @@ impl<const N: usize> Arcs<N> {
     pub(crate) fn bend(&self, x: i32, y: i32) -> Bend<N> {
         let n = self.each.map(|n| n.at(x, y));
         let mut bend = Bend { q: self.q.at(x, y), n, values: [0; N] };
-        bend.divide(self.shift);
+        bend.divide::<R>(self.shift);
         bend
     }
 
@@ -193,7 +195,7 @@ impl<const N: usize> Arcs<N> {
         for (n, plane) in bend.n.iter_mut().zip(&self.each) {
             *n = n.wrapping_add(plane.x.wrapping_mul(along));
         }
-        let (inverse, zeros) = bend.divide(self.shift);
+        let (inverse, zeros) = bend.divide::<R>(self.shift);
         // What q changes by, a part of it at the end: at most 1 where an arc can be long.
         let change = signed(self.q.x.wrapping_mul(unsigned(LONG / 2)) << zeros) >> 16;
         let change = change.wrapping_mul(inverse) >> 18;
@@ -211,9 +213,9 @@ fn half_of_bend(step: i32, curve: i32) -> i32 {
 impl<const N: usize> Bend<N> {
     /// Sets the values, the quotients `n / q` of 30 bits by `2^shift`; `2^47 / (q 2^zeros)`, and zeros.
     #[inline(always)]
-    fn divide(&mut self, shift: u32) -> (i32, u32) {
+    fn divide<R: Reciprocal>(&mut self, shift: u32) -> (i32, u32) {
         let (normal, zeros) = normalized(self.q | 1);
-        let inverse = reciprocal_below(normal);
+        let inverse = R::below(normal);
         for (value, n) in self.values.iter_mut().zip(self.n) {
             *value = high_product_16(signed(n << zeros), inverse) >> shift;
         }
@@ -224,6 +226,7 @@ impl<const N: usize> Bend<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interpolation::Newton;
     use crate::setup::{Outline, doubled_area};
     use crate::vertex::{ClipVertex, Outside, Quick, Viewport};
     use fixed::types::I16F16;
@@ -262,7 +265,7 @@ mod tests {
         }
         let slopes = Slopes::new(&corners, area, 8)?;
         let [a, b, c] = &vertices;
-        let arcs = Arcs::new(&slopes, [a, b, c], q)?;
+        let arcs = Arcs::<Newton<2>, 2>::new(&slopes, [a, b, c], q)?;
         let points = corners.map(|p| p.map(|p| f64::from(p) / 256.0));
         let cross = |o: [f64; 2], a: [f64; 2], b: [f64; 2]| {
             (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])

@@ -12,13 +12,12 @@
 //! less than 2^13 2^-30 = 2^-17, divided by `q` at the ends of a piece, and kept between the vertices' values. A
 //! value between is on the line through both ends, to a 2^-8 of a raw step a pixel.
 
-use super::{ONE, Run, per_pixel};
+use super::{ONE, Reciprocal, Run, per_pixel};
 use crate::clip::Hither;
-use crate::math::{
-    bits, high, high_product, low, normalized, product, reciprocal, signed, unsigned,
-};
+use crate::math::{bits, high, high_product, low, normalized, product, signed, unsigned};
 use crate::setup::{Plane, Slopes, Tier};
 use crate::vertex::{Position, ScaleOf, Snap, Vertex};
+use core::marker::PhantomData;
 use fixed::types::I16F16;
 
 /// Varyings have planes below this, raw: 2^-8 less than 128.
@@ -39,9 +38,10 @@ pub(crate) struct Line<const N: usize> {
 
 /// Perspective, divided at the ends of pieces.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pieces<const N: usize> {
+pub(crate) struct Pieces<R, const N: usize> {
     q: Plane,
     each: [Numerator; N],
+    reciprocal: PhantomData<R>,
 }
 
 /// One varying of [`Pieces`].
@@ -169,7 +169,7 @@ impl<const N: usize> Linear<N> {
     }
 }
 
-impl<const N: usize> Pieces<N> {
+impl<R: Reciprocal, const N: usize> Pieces<R, N> {
     /// The planes through three vertices, where they have some.
     #[inline]
     pub(crate) fn new<T: Snap, const P: usize>(
@@ -179,7 +179,7 @@ impl<const N: usize> Pieces<N> {
     ) -> Option<Self> {
         let [q0, q1, q2] = q.map(signed);
         let q = slopes.plane(unsigned(q0), [(q1 - q0) >> 1, (q2 - q0) >> 1]);
-        let mut pieces = Self { q, each: [Numerator::default(); N] };
+        let mut pieces = Self { q, each: [Numerator::default(); N], reciprocal: PhantomData };
         for (numerator, values) in pieces.each.iter_mut().zip(raw(vertices)?) {
             *numerator = Numerator::new(slopes, values, [q1, q2]);
         }
@@ -193,7 +193,7 @@ impl<const N: usize> Pieces<N> {
         let q = unsigned(self.q.signed_at(x, y).max(1));
         let (normal, zeros) = normalized(q);
         // 2^62 / (q 2^zeros), 31 bits.
-        let inverse = signed(reciprocal(normal) >> 1);
+        let inverse = signed(R::of(normal) >> 1);
         let mut values = [0; N];
         for (value, numerator) in values.iter_mut().zip(&self.each) {
             // |n| <= q.

@@ -1,4 +1,4 @@
-//! Perspective of a triangle on the screen in the exact tier, divided at each pixel, by planes.
+//! Perspective of a triangle on the screen, divided at each pixel, by planes.
 //!
 //! `q`, in a unit of the triangle's own, is `1 / w`: the largest of the three is in `[2^30, 2^31)`, at most 2^31 - 2^16 so
 //! that what the plane is off has room, and none is below 2^26: a triangle of which one vertex is 16 times as far as another is drawn by its edge functions. A numerator is
@@ -14,11 +14,12 @@
 //!
 //! `2^e` is the range of `u` over the triangle, or 2^11 raw steps where that is less: an error is then below a step.
 
-use super::{Run, Varying};
+use super::{Reciprocal, Run, Varying};
 use crate::color::Lane;
 use crate::math::{bits, high_product, normalized, reciprocal, signed, unsigned};
-use crate::setup::{Plane, Slopes};
+use crate::setup::{Plane, Slopes, Tier};
 use crate::vertex::{Position, ScaleOf, Snap, Vertex};
+use core::marker::PhantomData;
 use fixed::types::I16F16;
 
 /// `q` of no covered pixel is below this, but for a plane's error.
@@ -26,17 +27,18 @@ const LEAST: u32 = 1 << 26;
 
 /// Numerators and `q` of varyings that are divided at each pixel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Quotients<const N: usize> {
+pub(crate) struct Quotients<R, const N: usize> {
     q: Plane,
     n: [Plane; N],
     /// `u_0` with half a step, in `2^(e - 24)` raw steps; and `24 - e`.
     each: [(i32, u32); N],
+    reciprocal: PhantomData<R>,
 }
 
 /// Such varyings along a row.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Followed<'a, const N: usize> {
-    of: &'a Quotients<N>,
+pub(crate) struct Followed<'a, R, const N: usize> {
+    of: &'a Quotients<R, N>,
     /// `2^56 / q`.
     r: i32,
     q: i32,
@@ -44,7 +46,7 @@ pub(crate) struct Followed<'a, const N: usize> {
 }
 
 /// `1 / w` of three vertices in front of the eye, in a unit of their own; `None` where they are too different.
-fn nearness<T: Snap, const N: usize, const P: usize>(
+fn nearness<T: Tier, const N: usize, const P: usize>(
     vertices: [&Vertex<T, N, P>; 3],
 ) -> Option<[u32; 3]> {
     let inverse = vertices.map(inverse_w);
@@ -57,10 +59,14 @@ fn nearness<T: Snap, const N: usize, const P: usize>(
     (a.min(b).min(c) >= LEAST).then_some(q)
 }
 
-/// The mantissa of `1 / w`, and its exponent but for a constant.
+/// The mantissa of `1 / w`, and its exponent but for a constant. In the exact tier `k` is a power of two; where vertices are
+/// projected, which all are that come here, `k w` is the same of all.
 #[inline(never)]
-fn inverse_w<T: Snap, const N: usize, const P: usize>(v: &Vertex<T, N, P>) -> (u32, i32) {
+fn inverse_w<T: Tier, const N: usize, const P: usize>(v: &Vertex<T, N, P>) -> (u32, i32) {
     let ScaleOf(k) = v.position.scale();
+    if T::PROJECTS {
+        return (k.mantissa, k.exponent);
+    }
     let (divisor, zeros) = normalized(unsigned(v.position.scaled_w()));
     (reciprocal(divisor), k.exponent + bits(zeros))
 }
@@ -144,10 +150,10 @@ impl<const N: usize> Run<N> for Slope<'_, N> {
     }
 }
 
-impl<const N: usize> Quotients<N> {
+impl<R: Reciprocal, const N: usize> Quotients<R, N> {
     /// The planes through three vertices on the screen, where they have some.
     #[inline(never)]
-    pub(crate) fn new<T: Snap, const P: usize>(
+    pub(crate) fn new<T: Tier, const P: usize>(
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
     ) -> Option<Self> {
@@ -156,7 +162,7 @@ impl<const N: usize> Quotients<N> {
 
     /// The same of colour channels, each in parts of `2^bits` of its own steps: 24 bits of fraction, with half a step.
     #[inline(never)]
-    pub(crate) fn channels<T: Snap, const P: usize>(
+    pub(crate) fn channels<T: Tier, const P: usize>(
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
         lanes: [Lane; N],
@@ -176,7 +182,7 @@ impl<const N: usize> Quotients<N> {
 
     /// The planes of numerators whose differences in Q31, and first value and its fraction, are `each` of a varying's.
     #[inline(always)]
-    fn of<T: Snap, const P: usize>(
+    fn of<T: Tier, const P: usize>(
         slopes: &Slopes,
         vertices: [&Vertex<T, N, P>; 3],
         each: impl Fn(usize, [i32; 3]) -> Option<([i32; 2], (i32, u32))>,
@@ -188,7 +194,8 @@ impl<const N: usize> Quotients<N> {
         if signed(plane.x).unsigned_abs() > (least >> 5) + (least >> 7) {
             return None;
         }
-        let mut all = Self { q: plane, n: [Plane::default(); N], each: [(0, 0); N] };
+        let n = [Plane::default(); N];
+        let mut all = Self { q: plane, n, each: [(0, 0); N], reciprocal: PhantomData };
         let [a, b, c] = vertices.map(|v| &v.varyings);
         let varyings = a.iter().zip(b).zip(c).enumerate();
         for ((n, start), (i, ((a, b), c))) in all.n.iter_mut().zip(&mut all.each).zip(varyings) {
@@ -203,16 +210,16 @@ impl<const N: usize> Quotients<N> {
 
     /// The values from a covered pixel on.
     #[inline]
-    pub(crate) fn from(&self, x: i32, y: i32) -> Followed<'_, N> {
+    pub(crate) fn from(&self, x: i32, y: i32) -> Followed<'_, R, N> {
         let q = self.q.signed_at(x, y).max(1 << 25);
         let (divisor, zeros) = normalized(unsigned(q));
         // 2^(63 + zeros) / (q 2^zeros) is in [2^31, 2^32); zeros is 1 to 6.
-        let r = signed(reciprocal(divisor) >> (7 - zeros));
+        let r = signed(R::of(divisor) >> (7 - zeros));
         Followed { of: self, r, q, n: self.n.map(|n| n.signed_at(x, y)) }
     }
 }
 
-impl<const N: usize> Followed<'_, N> {
+impl<R, const N: usize> Followed<'_, R, N> {
     /// Colour channels with 24 bits of fraction.
     #[inline]
     pub(crate) fn fractions(&self) -> [u32; N] {
@@ -224,7 +231,7 @@ impl<const N: usize> Followed<'_, N> {
     }
 }
 
-impl<const N: usize> Run<N> for Followed<'_, N> {
+impl<R, const N: usize> Run<N> for Followed<'_, R, N> {
     #[inline]
     fn varyings(&self) -> [I16F16; N] {
         let mut values = [I16F16::ZERO; N];
@@ -251,7 +258,8 @@ impl<const N: usize> Run<N> for Followed<'_, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::{Tier, determinant};
+    use crate::interpolation::Newton;
+    use crate::setup::determinant;
     use crate::vertex::{ClipVertex, Exact, Outside, Viewport};
 
     fn vertex([x, y, w]: [i32; 3], u: i32, viewport: &Viewport) -> Vertex<Exact, 1> {
@@ -273,9 +281,9 @@ mod tests {
             return None;
         }
         let slopes = Slopes::homogeneous(positions, determinant(positions), &bounds, viewport)?;
-        let quotients = Quotients::new(&slopes, v)?;
+        let quotients = Quotients::<Newton<2>, 1>::new(&slopes, v)?;
         let lane = Lane { bits: 6, width: 11, place: 0 };
-        let channels = Quotients::channels(&slopes, v, [lane]);
+        let channels = Quotients::<Newton<2>, 1>::channels(&slopes, v, [lane]);
         let range = f64::from(u.iter().max().unwrap() - u.iter().min().unwrap());
         let mut largest = [0.0f64; 2];
         for y in bounds.y0..bounds.y1 {
@@ -405,7 +413,8 @@ mod tests {
             let bounds = Exact::set_up(positions, &viewport).unwrap().bounds[0];
             let slopes =
                 Slopes::homogeneous(positions, determinant(positions), &bounds, &viewport).unwrap();
-            let at = Quotients::new(&slopes, v).unwrap().from(3, 3).varyings()[0].to_bits();
+            let at = Quotients::<Newton<2>, 1>::new(&slopes, v).unwrap().from(3, 3).varyings()[0]
+                .to_bits();
             assert!((at - (flip << 16)).abs() < 64, "{at}");
         }
     }

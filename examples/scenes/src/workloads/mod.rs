@@ -27,7 +27,9 @@ pub use draw::{
 };
 pub use texel::{TEXTURE, TEXTURE_SIDE, texel_of};
 
-use hither::{Correction, Exact, Hither, I16F16, PackedEvery, Perspective, Quick, Tier};
+use hither::{
+    Correction, Exact, Hither, I16F16, Packed, Perspective, PerspectiveEvery, Quick, Tier,
+};
 
 /// Width and height of the pictures, in pixels.
 pub const SIDE: u32 = 240;
@@ -59,12 +61,12 @@ impl Preset for Exact {
 
 impl Preset for Quick<4> {
     const NAME: &'static str = "quick4";
-    type Correction = PackedEvery<8>;
+    type Correction = Packed<PerspectiveEvery<8>>;
 }
 
 impl Preset for Quick<8> {
     const NAME: &'static str = "quick8";
-    type Correction = PackedEvery<8>;
+    type Correction = Packed<PerspectiveEvery<8>>;
 }
 
 /// A workload; see the [module](self).
