@@ -4,7 +4,7 @@
 use std::error::Error;
 use std::fmt::Display;
 
-use hither::{Counts, DepthBuffer, Exact, Frame, Framebuffer, Rgb565Be, Vertex};
+use hither::{Counts, DepthBuffer, Exact, Fidelity, Frame, Framebuffer, Rgb565Be, Vertex};
 use hither_examples::{ideal, picture, reference, rgb565};
 use hither_scenes::spinning_teapot::{self as scene, Drawn, Moment};
 
@@ -53,6 +53,7 @@ fn render(number: u32) -> Result<(Vec<u16>, Drawn), Box<dyn Error>> {
     let (mut color_words, mut depth_words) = (vec![0_u16; pixels], vec![0_u16; pixels]);
     let buffer = Framebuffer::<Rgb565Be>::try_new(&mut color_words, SIDE, SIDE)?;
     let mut frame = Frame::new(buffer)?
+        .with_preset(Fidelity)
         .with_hither(scene::HITHER)
         .with_depth(DepthBuffer::try_new(&mut depth_words, SIDE, SIDE)?)?
         .with_cull(scene::CULL);

@@ -17,7 +17,8 @@
 //! A [`Frame`] joins the stages. What a scene uses is in its type, and what it does not use costs
 //! nothing: the [`Target`] and pixel format, depth ([`NoDepth`] or [`DepthBuffer`]), the range of `w`
 //! ([`NoHither`], [`BothSides`], [`Hither`]), clip [`Plane`]s, the tier ([`Exact`], [`Quick`]) and the
-//! correction of varyings ([`Perspective`], [`PerspectiveEvery`], [`Affine`]).
+//! correction of varyings ([`Perspective`], [`PerspectiveEvery`], [`Affine`]). Presets set the last two: [`Speed`],
+//! [`Balance`], which is what a frame begins with, and [`Fidelity`].
 //!
 //! # A mesh
 //!
@@ -97,6 +98,7 @@ mod framebuffer;
 mod interpolation;
 mod math;
 mod mesh;
+mod preset;
 mod setup;
 mod span;
 mod texture;
@@ -122,6 +124,7 @@ pub use interpolation::{
     PerspectiveEvery, Reciprocal, Table, Wide, Width,
 };
 pub use mesh::{AsVaryings, Lit, Mesh, MeshError, NormalColor, StoredPosition, VertexStage};
+pub use preset::{Balance, Fidelity, Preset, Speed};
 pub use setup::{Cull, Facing, Tier};
 pub use texture::{Texture, TextureSize};
 #[cfg(feature = "micromath")]

@@ -1,6 +1,9 @@
 //! A target that records what is drawn, and fragments that show what they were given.
 
-use hither::{ClipVertex, Fragment, Frame, I16F16, Sample, Target};
+use hither::{
+    ClipVertex, Exact, Fidelity, Fragment, Frame, I16F16, NoDepth, NoHither, Perspective, Sample,
+    Target,
+};
 
 use crate::oracle::Viewport;
 
@@ -82,15 +85,19 @@ impl<const N: usize> Fragment<(i32, i32), N> for Place {
     }
 }
 
-/// A frame over a recording target.
+/// What [`frame`] makes.
+pub type Exactly<C> = Frame<Record<C>, NoDepth, NoHither, Exact, Perspective>;
+
+/// A frame of the exact tier over a recording target.
 ///
 /// # Panics
 ///
 /// Where a side is not 1 to 512.
 #[must_use]
-pub fn frame<C: Copy>(viewport: Viewport) -> Frame<Record<C>> {
+pub fn frame<C: Copy>(viewport: Viewport) -> Exactly<C> {
     let target = Record::new(viewport.width, viewport.height);
-    Frame::new(target).expect("sides of 1 to 512")
+    let frame = Frame::new(target).expect("sides of 1 to 512");
+    frame.with_preset(Fidelity)
 }
 
 /// A vertex from raw coordinates `[x, y, z, w]`.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 19] = [
+const ORDER: [&str; 20] = [
     "math",
     "color",
     "buffer",
@@ -21,6 +21,7 @@ const ORDER: [&str; 19] = [
     "fragment",
     "dither",
     "mesh",
+    "preset",
     "draw",
     "band",
     "eg",

@@ -4,11 +4,11 @@ use crate::clip::{BothSides, Hither, NoHither, Plane};
 use crate::color::Rgb565Be;
 use crate::depth::{Compare, DepthBuffer, DepthTest, DepthWord, NoDepth};
 use crate::framebuffer::{Framebuffer, Target};
-use crate::interpolation::Perspective;
 use crate::math::unsigned;
+use crate::preset::{Balance, Preset};
 use crate::setup::Cull;
 use crate::traversal::WIDEST;
-use crate::vertex::{Exact, Rect, Viewport, ViewportSize};
+use crate::vertex::{Rect, Viewport, ViewportSize};
 use core::marker::PhantomData;
 
 /// A frame for an ST7789 or ILI9341 without depth: flat shapes.
@@ -46,7 +46,14 @@ pub type DepthFrame<'a> = Frame<Framebuffer<'a, Rgb565Be>, DepthBuffer<'a>, Hith
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct Frame<C, D = NoDepth, W = NoHither, T = Exact, I = Perspective, const P: usize = 0> {
+pub struct Frame<
+    C,
+    D = NoDepth,
+    W = NoHither,
+    T = <Balance as Preset>::Tier,
+    I = <Balance as Preset>::Correction,
+    const P: usize = 0,
+> {
     pub(super) target: C,
     pub(super) depth: D,
     pub(super) range: W,
@@ -68,7 +75,7 @@ type WithDepth<'a, C, W, O, T, I, const P: usize> =
     Frame<C, DepthBuffer<'a, W, O>, Hither, T, I, P>;
 
 impl<C: Target> Frame<C> {
-    /// A frame over all of a target: exact tier, no depth, no hither plane, both facings drawn.
+    /// A frame over all of a target: the preset [`Balance`], no depth, no hither plane, both facings drawn.
     ///
     /// # Errors
     ///
@@ -150,15 +157,20 @@ impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
         }
     }
 
-    /// The same in another tier: [`Exact`], [`Quick<4>`](crate::Quick) or
+    /// The same in another tier: [`Exact`](crate::Exact), [`Quick<4>`](crate::Quick) or
     /// [`Quick<8>`](crate::Quick).
     #[must_use]
     pub fn with_tier<T2>(self, _tier: T2) -> Frame<C, D, W, T2, I, P> {
         self.rebuild(|depth, range| (depth, range))
     }
 
-    /// The same with another correction of varyings: [`Perspective`],
-    /// [`PerspectiveEvery<N>`](crate::PerspectiveEvery) or [`Affine`](crate::Affine).
+    /// The same with a preset's tier and correction.
+    #[must_use]
+    pub fn with_preset<Q: Preset>(self, _preset: Q) -> Frame<C, D, W, Q::Tier, Q::Correction, P> {
+        self.rebuild(|depth, range| (depth, range))
+    }
+
+    /// The same with another [`Correction`](crate::Correction) of varyings.
     #[must_use]
     pub fn with_correction<I2>(self, _correction: I2) -> Frame<C, D, W, T, I2, P> {
         self.rebuild(|depth, range| (depth, range))

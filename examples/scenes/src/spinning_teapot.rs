@@ -217,7 +217,7 @@ mod tests {
 
     use super::*;
     use crate::checksum::Checksum;
-    use hither::{DepthBuffer, Exact, Framebuffer, Rgb565Be};
+    use hither::{DepthBuffer, Exact, Fidelity, Framebuffer, Rgb565Be};
     use std::vec;
 
     #[test]
@@ -232,7 +232,8 @@ mod tests {
     fn drawn_with(cache: &mut [Vertex<Exact, 3>]) -> (Drawn, u32) {
         let (mut words, mut depths) = (vec![0; 80 * 60], vec![0_u16; 80 * 60]);
         let buffer = Framebuffer::<Rgb565Be>::try_new(&mut words, 80, 60).unwrap();
-        let frame = Frame::new(buffer).unwrap().with_hither(HITHER).with_cull(CULL);
+        let frame = Frame::new(buffer).unwrap().with_preset(Fidelity);
+        let frame = frame.with_hither(HITHER).with_cull(CULL);
         let mut frame =
             frame.with_depth(DepthBuffer::try_new(&mut depths, 80, 60).unwrap()).unwrap();
         let drawn = draw(&mut frame, Moment { number: 5, frames: 8 }, cache).unwrap();

@@ -174,7 +174,7 @@ mod tests {
     extern crate std;
 
     use super::*;
-    use hither::{FaceColors, Frame, Gouraud, Target, Vertex};
+    use hither::{FaceColors, Fidelity, Frame, Gouraud, Target, Vertex};
 
     /// Counts the pixels that are written.
     struct Tally(usize);
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn it_is_the_workload() {
-        let frame = Frame::new(Tally(0)).unwrap().with_hither(HITHER);
+        let frame = Frame::new(Tally(0)).unwrap().with_preset(Fidelity).with_hither(HITHER);
         let mut frame = frame.with_cull(CULL);
         let transform = transform().unwrap();
         let faces = FaceColors::new(&FACE_COLORS).unwrap();
