@@ -8,3 +8,4 @@ pub mod measure;
 pub mod oracle;
 pub mod record;
 pub mod snapped;
+pub mod trade;

@@ -52,6 +52,13 @@ pub fn now() -> u32 {
     instructions
 }
 
+/// How much of it some work takes; it wraps.
+pub fn ticks(work: impl FnOnce()) -> u32 {
+    let start = now();
+    work();
+    now().wrapping_sub(start)
+}
+
 /// Runs `2 * pairs` instructions, and a few around them: what a clock is checked with.
 #[inline(never)]
 pub fn spin(pairs: u32) {

@@ -3,3 +3,5 @@
 
 pub mod clock;
 pub mod stack;
+#[cfg(feature = "report")]
+pub mod trade;

@@ -1,6 +1,6 @@
 //! Why a scene was not drawn.
 
-use hither::{BufferSize, DepthSize, MatrixError, ViewportSize};
+use hither::{BufferSize, DepthSize, HitherDistance, MatrixError, MeshError, ViewportSize};
 
 /// What was lent does not hold the picture, or a matrix left its range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +13,10 @@ pub enum SceneError {
     Viewport(ViewportSize),
     /// A matrix entry left its range.
     Matrix(MatrixError),
+    /// The hither plane is not in front of the eye.
+    Hither(HitherDistance),
+    /// A mesh's data do not fit together.
+    Mesh(MeshError),
 }
 
 impl core::fmt::Display for SceneError {
@@ -22,6 +26,8 @@ impl core::fmt::Display for SceneError {
             Self::Depth(error) => error.fmt(f),
             Self::Viewport(error) => error.fmt(f),
             Self::Matrix(error) => error.fmt(f),
+            Self::Hither(error) => error.fmt(f),
+            Self::Mesh(error) => error.fmt(f),
         }
     }
 }
@@ -49,5 +55,17 @@ impl From<ViewportSize> for SceneError {
 impl From<MatrixError> for SceneError {
     fn from(error: MatrixError) -> Self {
         Self::Matrix(error)
+    }
+}
+
+impl From<HitherDistance> for SceneError {
+    fn from(error: HitherDistance) -> Self {
+        Self::Hither(error)
+    }
+}
+
+impl From<MeshError> for SceneError {
+    fn from(error: MeshError) -> Self {
+        Self::Mesh(error)
     }
 }

@@ -15,6 +15,7 @@ pub mod spinning_teapot;
 pub mod teapot;
 pub mod texture;
 pub mod torus;
+pub mod trade;
 mod trigonometry;
 pub mod workloads;
 

@@ -52,7 +52,7 @@ fn parse(machine: &Machine, printed: &str) -> Result<Vec<Count>, String> {
 }
 
 /// The lines that a firmware printed, without its two spins, which say whether its clock counts instructions.
-pub(super) fn lines<'a>(machine: &Machine, printed: &'a str) -> Result<Vec<&'a str>, String> {
+pub(crate) fn lines<'a>(machine: &Machine, printed: &'a str) -> Result<Vec<&'a str>, String> {
     let (mut spins, mut rest) = (Vec::new(), Vec::new());
     for line in printed.lines() {
         match words(line) {
@@ -67,17 +67,17 @@ pub(super) fn lines<'a>(machine: &Machine, printed: &'a str) -> Result<Vec<&'a s
 }
 
 /// A line that has this many words.
-pub(super) fn words<const N: usize>(line: &str) -> Option<[&str; N]> {
+pub(crate) fn words<const N: usize>(line: &str) -> Option<[&str; N]> {
     line.split_whitespace().collect::<Vec<_>>().try_into().ok()
 }
 
 /// What is said of a line that is not as it should be.
-pub(super) fn fault(machine: &Machine, line: &str) -> String {
+pub(crate) fn fault(machine: &Machine, line: &str) -> String {
     format!("{}: the firmware printed {line:?}", machine.isa)
 }
 
 /// The nearest number of instructions to a number of ticks.
-pub(super) fn instructions(machine: &Machine, ticks: u64) -> u64 {
+pub(crate) fn instructions(machine: &Machine, ticks: u64) -> u64 {
     let (numerator, denominator) = machine.instructions_per_tick;
     (2 * ticks * numerator + denominator) / (2 * denominator)
 }

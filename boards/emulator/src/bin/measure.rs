@@ -38,21 +38,15 @@ static QUICK8: Vertices<Quick<8>> = Vertices::new();
 fn main() -> ! {
     clock::start();
     // Two reads with nothing between.
-    let overhead = ticks(|| {});
+    let overhead = clock::ticks(|| {});
     for pairs in [1_000, 101_000] {
-        println!("spin {pairs} {}", ticks(|| clock::spin(pairs)).wrapping_sub(overhead));
+        println!("spin {pairs} {}", clock::ticks(|| clock::spin(pairs)).wrapping_sub(overhead));
     }
     let mut buffers = Buffers { color: COLOR.take(), depth: DEPTH.take() };
     measure(&EXACT, &mut buffers, overhead);
     measure(&QUICK4, &mut buffers, overhead);
     measure(&QUICK8, &mut buffers, overhead);
     semihosting::process::exit(0)
-}
-
-fn ticks(work: impl FnOnce()) -> u32 {
-    let start = clock::now();
-    work();
-    clock::now().wrapping_sub(start)
 }
 
 /// Draws every workload in a tier.
