@@ -6,7 +6,7 @@
 
 mod plane;
 
-pub(crate) use plane::{DepthPlane, DepthRun, projected};
+pub(crate) use plane::{DepthPlane, DepthRun, projected, ranged};
 
 use crate::buffer::BufferSize;
 use bytemuck::Pod;
@@ -92,6 +92,10 @@ pub trait DepthTest: core::fmt::Debug {
     #[doc(hidden)]
     fn from(&mut self, at: usize, draw: impl FnOnce(&mut [Self::Word]));
 
+    /// The same of all depths.
+    #[doc(hidden)]
+    fn all(&mut self, draw: impl FnOnce(&mut [Self::Word]));
+
     /// Whether it serves a target of this size.
     #[doc(hidden)]
     fn fits(&self, target: (u32, u32)) -> bool;
@@ -117,6 +121,9 @@ impl DepthTest for NoDepth {
 
     #[inline]
     fn from(&mut self, _: usize, _: impl FnOnce(&mut [u16])) {}
+
+    #[inline]
+    fn all(&mut self, _: impl FnOnce(&mut [u16])) {}
 
     #[inline]
     fn fits(&self, _: (u32, u32)) -> bool {
@@ -197,6 +204,11 @@ impl<W: DepthWord, C: Compare> DepthTest for DepthBuffer<'_, W, C> {
         if let Some(rest) = self.words.get_mut(at..) {
             draw(rest);
         }
+    }
+
+    #[inline(always)]
+    fn all(&mut self, draw: impl FnOnce(&mut [W])) {
+        draw(self.words);
     }
 
     #[inline]

@@ -10,6 +10,7 @@ mod projected;
 mod shade;
 mod shape;
 mod small;
+mod tiny;
 
 pub use frame::{DepthFrame, DepthSize, DisplayFrame, Frame};
 
@@ -19,7 +20,7 @@ use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates, Varyings, Width};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
-use crate::setup::{Facing, Outline, Part, Setup, Slopes, Tier, doubled_area, facing};
+use crate::setup::{Facing, Outline, Part, Setup, Slopes, Tier, Tiny, doubled_area, facing};
 use crate::traversal::{ClipWalk, ProjectedSide, is_small};
 use crate::vertex::{ClipVertex, Distance, Outside, Position, Rect, Vertex};
 use core::slice::from_mut;
@@ -328,6 +329,12 @@ where
         };
         if F::UNIFORM && D::BITS == 0 {
             return Some(self.fill_projected(&Outline::new(&corners, area > 0), fragment));
+        }
+        if D::BITS > 0 && Tiny::may_have(area, T::SUBPIXEL_BITS) {
+            let [a, b, c] = vertices;
+            if let Some(outcome) = self.draw_tiny(a, b, c, fragment) {
+                return Some(outcome);
+            }
         }
         // Before the outline is made: both together take more registers than there are.
         let slopes = Slopes::new(&corners, area, T::SUBPIXEL_BITS)?;

@@ -3,6 +3,7 @@
 use crate::buffer::BufferSize;
 use crate::color::PixelFormat;
 use crate::math::index;
+use crate::traversal::Scan;
 use bytemuck::Pod;
 
 /// What spans are drawn into.
@@ -147,6 +148,34 @@ pub trait Target {
             if let Some(lanes) = lanes.get_mut(i0..i1) {
                 let to = (x + i0 - n * width as usize, y + n, at + i0);
                 self.write_each::<_, 1>(to, lanes, |lane, _| color(lane));
+            }
+        }
+    }
+
+    /// Draws the covered pixels of a box whose first one is `(x, y)`, with one of `lanes` a pixel of the target: what
+    /// `color` makes of it.
+    #[doc(hidden)]
+    #[inline]
+    fn write_scan<L>(
+        &mut self,
+        (x, y): (usize, usize),
+        lanes: &mut [L],
+        mut scan: Scan,
+        mut color: impl FnMut(&mut L, &Scan) -> Option<Self::Color>,
+    ) {
+        loop {
+            if scan.enter() {
+                let (column, row) = scan.place();
+                let colors = core::iter::from_fn(|| {
+                    let lane = lanes.get_mut(scan.at()).filter(|_| scan.is_covered())?;
+                    let color = color(lane, &scan);
+                    scan.step();
+                    Some(color)
+                });
+                self.write(x + index(column), y + index(row), colors);
+            }
+            if !scan.turn() {
+                return;
             }
         }
     }
@@ -453,6 +482,42 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
                         core::hint::black_box(());
                     }
                 }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn write_scan<L>(
+        &mut self,
+        _: (usize, usize),
+        lanes: &mut [L],
+        mut scan: Scan,
+        mut color: impl FnMut(&mut L, &Scan) -> Option<F::Color>,
+    ) {
+        // Of one length, so that an index is compared once.
+        let length = self.words.len().min(lanes.len());
+        let (Some(words), Some(lanes)) = (self.words.get_mut(..length), lanes.get_mut(..length))
+        else {
+            return;
+        };
+        loop {
+            if scan.enter() {
+                loop {
+                    let at = scan.at();
+                    let (Some(word), Some(lane)) = (words.get_mut(at), lanes.get_mut(at)) else {
+                        return;
+                    };
+                    if let Some(color) = color(lane, &scan) {
+                        *word = F::encode(color);
+                    }
+                    scan.step();
+                    if !scan.is_covered() {
+                        break;
+                    }
+                }
+            }
+            if !scan.turn() {
+                return;
             }
         }
     }

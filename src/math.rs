@@ -5,6 +5,7 @@
 //! chip that drew it.
 
 use core::hint::black_box;
+use core::num::NonZeroU32;
 
 /// `v / 2^n`, rounded to nearest, halves towards plus infinity. `n` is 0 to 62.
 #[inline]
@@ -240,6 +241,30 @@ fn refined_split(x: u32, m: u32) -> u32 {
     let step = (bits(x >> 9) * high + (sum >> 9)) >> 9;
     // 2^31 to 2^32: the step may be negative.
     (x << 15).wrapping_add_signed(step)
+}
+
+/// `2^41 / d`, floored, for `d` of more than 2^14 and less than 2^20: 21 to 27 bits.
+#[inline]
+pub(crate) fn inverse_area(d: NonZeroU32) -> u32 {
+    if SMALL_CORE { inverse_by_reciprocal(d.get()) } else { inverse_by_digits(d) }
+}
+
+/// [`inverse_area`] by two divisions.
+#[inline]
+fn inverse_by_digits(d: NonZeroU32) -> u32 {
+    let above = (1 << 31) / d;
+    let rest = (1u32 << 31).wrapping_sub(above.wrapping_mul(d.get()));
+    (above << 10) + (rest << 10) / d
+}
+
+/// The same without a division: a reciprocal is off by less than one here, so the remainder says which way.
+#[inline]
+fn inverse_by_reciprocal(d: u32) -> u32 {
+    let (m, zeros) = normalized(d);
+    let near = reciprocal(m) >> (22 - zeros);
+    // 2^41 is 0 modulo 2^32.
+    let rest = signed(near.wrapping_mul(d).wrapping_neg());
+    near.wrapping_add_signed((rest >> 31) + i32::from(rest >= signed(d)))
 }
 
 /// `2^47 / m` for `m` in `[2^31, 2^32)`, 16 bits, never above it: `m` is rounded up to 17 bits, and the quotient down.
@@ -511,6 +536,16 @@ mod tests {
             let exact = (1u64 << 48) / u64::from(m);
             assert!(exact.abs_diff(u64::from(x)) << 15 <= exact + (1 << 15), "{m}: {x}");
             assert!((1 << 16..1 << 17).contains(&x));
+        }
+    }
+
+    /// All of them, both ways.
+    #[test]
+    fn inverse_areas_are_floored() {
+        for d in (1 << 14) + 1..1 << 20 {
+            let exact = u32::try_from((1u64 << 41) / u64::from(d)).unwrap();
+            assert_eq!(inverse_by_digits(NonZeroU32::new(d).unwrap()), exact, "2^41 / {d}");
+            assert_eq!(inverse_by_reciprocal(d), exact, "2^41 / {d}");
         }
     }
 

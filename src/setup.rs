@@ -22,10 +22,14 @@ mod outline;
 mod plane;
 mod quick;
 mod slopes;
+mod tiny;
 
 pub(crate) use exact::{Anchored, determinant, outline};
 pub(crate) use outline::{Corner, Outline, Place, doubled_area, facing};
 pub(crate) use plane::{Plane, Slopes};
+#[cfg(test)]
+pub(crate) use tiny::tests::triangles as tiny_triangles;
+pub(crate) use tiny::{EdgeSteps, PlaneSteps, Tiny};
 
 use crate::math::{Scale, product, rolled};
 use crate::vertex::{ExactPosition, PixelVertex, Rect, ScaleOf, Snap, Viewport};

@@ -1,5 +1,5 @@
 //! Scanline traversal: from edge functions to spans, by additions; of projected triangles from their corners
-//! ([`Rows`]).
+//! ([`Rows`]), and of tiny ones from edge functions of 16 bits ([`Scan`]).
 //!
 //! Each edge keeps the end of its interval on the current row and its exact value there. A row adds
 //! the edge's `b`; then the end moves a pixel at a time, one addition each, until the value changes
@@ -14,6 +14,7 @@
 
 mod exact;
 mod rows;
+mod scan;
 #[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
 mod shared;
 mod side;
@@ -21,6 +22,7 @@ mod side;
 pub(crate) use exact::Stepped;
 pub(crate) use rows::Rows;
 use rows::ShortRows;
+pub(crate) use scan::Scan;
 
 /// How the edges of projected triangles are followed. On ARMv6-M a division is a call of 200 instructions, and
 /// a 64-bit shift or product one of 15 to 40.

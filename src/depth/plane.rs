@@ -1,14 +1,14 @@
 //! The depth of one triangle, as a linear function on the screen.
 //!
 //! Two ways lead to a row's first depth. Of a triangle whose vertices are all projected, or on the screen in the exact tier,
-//! with 16-bit depths that are inside of the range it is a [`Plane`] through the vertices ([`projected`]); that is nearly
-//! always. Otherwise it is the sum of the edge
+//! with 16-bit depths that are inside of the range it is a plane through the vertices, a [`Plane`] ([`projected`]) or a
+//! [`Tiny`](crate::setup::Tiny) triangle's; that is nearly always. Otherwise it is the sum of the edge
 //! functions, weighted ([`DepthPlane`]).
 //!
 //! Error budget of the plane, in running units, 2^16 to a stored one:
 //! - a vertex's depth is within 2^-28 of the range: 2^4;
-//! - the plane is off by less than 2^14 in boxes below 512 px, 2^15 where a triangle reaches the guard band's ends, and
-//!   2^14.9 in the exact tier;
+//! - the plane is off by less than 2^14 in boxes below 512 px, 10240 over a tiny triangle, 2^15 where a triangle reaches the
+//!   guard band's ends, and 2^14.9 in the exact tier;
 //! - rounding to 16 bits adds 2^15.
 //!
 //! So a stored depth is within a unit; and as vertices are inside of the range, with 2^15 to spare at both ends, so is
@@ -43,9 +43,19 @@ pub(crate) fn projected<T: Snap, const N: usize, const P: usize>(
     slopes: &Slopes,
     vertices: [&Vertex<T, N, P>; 3],
 ) -> Plane {
+    let (value, differences) = ranged(vertices);
+    slopes.plane(value, differences)
+}
+
+/// The depth at the first of three vertices whose depths are all inside of the range, in running units with the rounding in
+/// it, and half of how much more it is at the other two.
+#[inline]
+pub(crate) fn ranged<T: Snap, const N: usize, const P: usize>(
+    vertices: [&Vertex<T, N, P>; 3],
+) -> (u32, [i32; 2]) {
     // Times 1 - 2^-16, Q31.
     let [d0, d1, d2] = vertices.map(|v| v.z - (v.z >> 16));
-    slopes.plane((unsigned(d0) << 1).wrapping_add(1 << 15), [d1 - d0, d2 - d0])
+    ((unsigned(d0) << 1).wrapping_add(1 << 15), [d1 - d0, d2 - d0])
 }
 
 /// A depth plane by the edge functions.

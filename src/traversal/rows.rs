@@ -131,27 +131,34 @@ impl<S: SmallSide> Iterator for ShortRows<S> {
     }
 }
 
+/// What edge functions in 64 bits cover of a row of a triangle whose doubled area has that sign, of those columns.
+#[cfg(test)]
+pub(super) fn covered(
+    p: &[[i32; 2]; 3],
+    sign: i64,
+    row: i32,
+    bits: u32,
+    columns: core::ops::Range<i32>,
+) -> std::vec::Vec<i32> {
+    let p = p.map(|p| p.map(i64::from));
+    let half = (1i64 << bits) / 2;
+    let y = (i64::from(row) << bits) + half;
+    let inside = |x: i64| {
+        [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j): &(usize, usize)| {
+            let (a, b) = (sign * (p[i][1] - p[j][1]), sign * (p[j][0] - p[i][0]));
+            let e = a * (x - p[i][0]) + b * (y - p[i][1]);
+            e > 0 || (e == 0 && (a > 0 || (a == 0 && b > 0)))
+        })
+    };
+    columns.filter(|&x| inside((i64::from(x) << bits) + half)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::setup::doubled_area;
     use crate::traversal::side::{Digital, Line, Short, WIDEST, Walked, is_small};
     use std::vec::Vec;
-
-    /// What edge functions in 64 bits cover of a row, from column -1300 to 1300.
-    fn covered(p: &[[i32; 2]; 3], sign: i64, row: i32, bits: u32) -> Vec<i32> {
-        let p = p.map(|p| p.map(i64::from));
-        let half = (1i64 << bits) / 2;
-        let y = (i64::from(row) << bits) + half;
-        let inside = |x: i64| {
-            [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j): &(usize, usize)| {
-                let (a, b) = (sign * (p[i][1] - p[j][1]), sign * (p[j][0] - p[i][0]));
-                let e = a * (x - p[i][0]) + b * (y - p[i][1]);
-                e > 0 || (e == 0 && (a > 0 || (a == 0 && b > 0)))
-            })
-        };
-        (-1300..1300).filter(|&x| inside((i64::from(x) << bits) + half)).collect()
-    }
 
     /// All rows of a triangle from `y0` to `y1` against [`covered`].
     fn follows(p: [[i32; 2]; 3], bits: u32, y0: i32, y1: i32) {
@@ -166,7 +173,7 @@ mod tests {
             let mut seen = bounds.y0;
             for (x0, x1) in rows {
                 let span: Vec<i32> = (x0..x1).collect();
-                let exact = covered(&p, area.signum(), seen, bits);
+                let exact = covered(&p, area.signum(), seen, bits, -1300..1300);
                 assert_eq!(span, exact, "{p:?}, {bits} bits, row {seen} of {bounds:?}");
                 assert!(span.iter().all(|x| (whole.x0..whole.x1).contains(x)));
                 seen += 1;
@@ -197,8 +204,10 @@ mod tests {
             check(&mut rows.map(&mut columns), whole);
         }
         if y0 <= whole.y0 && y1 >= whole.y1 {
-            assert!(covered(&p, area.signum(), whole.y0 - 1, bits).is_empty());
-            assert!(covered(&p, area.signum(), whole.y1.max(whole.y0), bits).is_empty());
+            assert!(covered(&p, area.signum(), whole.y0 - 1, bits, -1300..1300).is_empty());
+            assert!(
+                covered(&p, area.signum(), whole.y1.max(whole.y0), bits, -1300..1300).is_empty()
+            );
         }
     }
 
