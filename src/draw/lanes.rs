@@ -8,7 +8,7 @@
 use super::shade::Pixels;
 use crate::fragment::Fragment;
 use crate::interpolation::{Followed, Reciprocal, Run};
-use crate::math::{signed, unsigned};
+use crate::math::{index, signed, unsigned};
 use crate::setup::{Plane, Slopes};
 use crate::vertex::{Snap, Vertex};
 use core::marker::PhantomData;
@@ -96,6 +96,63 @@ impl<C: Copy, F: Fragment<C, N>, const N: usize> Lanes<C, F, N> {
     }
 }
 
+/// Whether varyings have lanes, and are in `[0, 1]` at three vertices.
+#[inline]
+pub(super) fn within<C: Copy, F: Fragment<C, N>, T: Snap, const N: usize, const P: usize>(
+    vertices: [&Vertex<T, N, P>; 3],
+) -> bool {
+    let unit = |u: &I16F16| unsigned(u.to_bits()) <= 1 << 16;
+    F::LANES.is_some() && vertices.iter().all(|v| v.varyings.iter().all(unit))
+}
+
+/// `ceil(2^18 / n)`, 0 for 0.
+const INVERSE: [i32; 65] = inverses();
+
+#[expect(clippy::indexing_slicing, reason = "n is below the length; evaluated at compile time")]
+const fn inverses() -> [i32; 65] {
+    let mut table = [0; 65];
+    let (mut n, mut steps) = (1, 1);
+    while n < 65 {
+        table[n] = ((1 << 18) + steps - 1) / steps;
+        (n, steps) = (n + 1, steps + 1);
+    }
+    table
+}
+
+/// `d / steps`, towards 0, for `|d| <= 2^11` and up to 64 steps: the quotient is less than 2^-7 too large, and no fraction of 64ths is
+/// as near to 1.
+#[inline]
+fn per_step(d: i32, steps: i32) -> i32 {
+    let inverse = INVERSE.get(index(steps)).copied().unwrap_or(0);
+    let up = (d >> 31) & ((1 << 18) - 1);
+    (d * inverse + up) >> 18
+}
+
+/// The word of a piece, from raw values `first` in `[0, 2^16]` to those `steps` pixels on, 0 to 64.
+///
+/// A lane's step is towards 0, so that no sum passes the last value: less than a unit of its fraction too small, which over
+/// 7 pixels adds up to 7/32 of a step of the colour, and over 31 to nearly one.
+#[inline]
+pub(super) fn through<C: Copy, F: Fragment<C, N>, const N: usize>(
+    first: [i32; N],
+    last: [i32; N],
+    steps: i32,
+) -> Word {
+    let mut word = Word { at: 0, step: 0 };
+    let ends = first.iter().zip(last);
+    for (lane, (&first, last)) in F::LANES.iter().flatten().zip(ends) {
+        // u max 2^fraction: below 2^11, from Q16.
+        let fraction = lane.width - lane.bits;
+        let max = (1 << lane.bits) - 1;
+        let scaled = |u: i32| (u * max) >> (16 - fraction);
+        let (first, last) = (scaled(first), scaled(last));
+        word.at |= unsigned(first + (1 << fraction >> 1)) << lane.place;
+        let step = per_step(last - first, steps);
+        word.step = word.step.wrapping_add(unsigned(step) << lane.place);
+    }
+    word
+}
+
 impl<C: Copy, F: Fragment<C, N>, const N: usize> Pixels<C, F, N> for Word {
     const AT_ONCE: usize = 2;
 
@@ -181,6 +238,52 @@ mod tests {
         Packed, PerspectiveEvery, Quick, Rgb565, Snapped, Target, Texture, Textured, Vertex,
     };
     use std::vec::Vec;
+
+    #[test]
+    fn steps_are_quotients_towards_zero() {
+        for d in -2048..=2048 {
+            assert_eq!(super::per_step(d, 0), 0);
+            for steps in 1..=64 {
+                assert_eq!(super::per_step(d, steps), d / steps, "{d} / {steps}");
+            }
+        }
+    }
+
+    /// Every lane of every pixel of a piece, against the line through its ends.
+    #[test]
+    fn pieces_are_near_their_lines_and_between_their_ends() {
+        let mut below = random();
+        let lanes = <Rgb565 as crate::FromUnit>::LANES.unwrap();
+        for i in 0..200_000 {
+            let end = |n: i32, below: &mut dyn FnMut(i32) -> i32| match n % 4 {
+                0 => 0,
+                1 => 1 << 16,
+                _ => below(65_537),
+            };
+            let first = [0, 1, 2].map(|n| end(i + n, &mut below));
+            let last = [0, 1, 2].map(|n| end(i / 4 + n, &mut below));
+            let steps = below(65);
+            let word = super::through::<Rgb565, Gouraud, 3>(first, last, steps);
+            for k in 0..=steps {
+                let sum = word.at.wrapping_add(word.step.wrapping_mul(k as u32));
+                for (lane, (u, v)) in lanes.iter().zip(first.into_iter().zip(last)) {
+                    let got = sum >> lane.place & ((1 << lane.width) - 1);
+                    let unit = f64::from(1 << (lane.width - lane.bits));
+                    let got = f64::from(got) / unit - 0.5;
+                    let max = f64::from((1 << lane.bits) - 1) / 65_536.0;
+                    let at = f64::from(k) / f64::from(steps.max(1));
+                    let exact = max * (f64::from(u) + at * f64::from(v - u));
+                    assert!(
+                        (got - exact).abs() <= f64::from(k + 1) / unit,
+                        "{first:?} {last:?} {k}"
+                    );
+                    let ends = [u, v].map(|u| max * f64::from(u));
+                    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+                    assert!(got <= high && got > low - 1.0 / unit, "{first:?} {last:?} {k}");
+                }
+            }
+        }
+    }
 
     const SIDE: u32 = 128;
 

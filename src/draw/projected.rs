@@ -137,6 +137,10 @@ where
                 return Some(());
             }
             let pieces = Every::<_, I>(Pieces::new(slopes, vertices, q)?, PhantomData);
+            if packed && !F::DITHERED && lanes::within::<C::Color, F, T, N, P>(vertices) {
+                self.draw_shape(shape, &Laned(pieces, PhantomData::<(C::Color, F)>), fragment);
+                return Some(());
+            }
             if F::WRAPS && packed {
                 self.draw_shape(shape, &Wrapped(pieces), fragment);
             } else {
@@ -418,6 +422,31 @@ impl<I: Correction, const N: usize> Rows<N> for Wrapped<Every<Pieces<I::Reciproc
         let Piece { first, last, steps, length } = self.0.piece(span, joint);
         let [at, step] = wrapped(first, last, steps);
         (Word { at, step }, length)
+    }
+}
+
+/// Pieces of channels in one word.
+struct Laned<R, K>(R, PhantomData<K>);
+
+impl<I, C, F, const N: usize> Rows<N> for Laned<Every<Pieces<I::Reciprocal, N>, I>, (C, F)>
+where
+    I: Correction,
+    C: Copy,
+    F: Fragment<C, N>,
+{
+    type Block = Word;
+    type Joint = [i32; N];
+    const LONGEST: i32 = I::EVERY;
+
+    #[inline]
+    fn joint(&self, span: Span) -> [i32; N] {
+        self.0.joint(span)
+    }
+
+    #[inline]
+    fn block(&self, span: Span, joint: &mut [i32; N]) -> (Word, i32) {
+        let Piece { first, last, steps, length } = self.0.piece(span, joint);
+        (lanes::through::<C, F, N>(first, last, steps), length)
     }
 }
 

@@ -53,7 +53,7 @@ pub struct PerspectiveEvery<const N: u8>;
 pub struct Affine;
 
 /// For speed, in the quick tiers: what a pixel is made of is stepped as one word where it fits. Colours of RGB565 take 10 or 11
-/// bits each and are within a step of it; texture coordinates take 16 bits, to 2^-16. What is not linear on the screen, and
+/// bits each and are within a step of it (of straight pieces of 32 within 1 1/2, of 64 within 2 1/2); texture coordinates take 16 bits, to 2^-16. What is not linear on the screen, and
 /// not in pieces, is not packed.
 ///
 /// With [`PerspectiveEvery<N>`] a straight line over the whole triangle may be as far off as the fragment allows

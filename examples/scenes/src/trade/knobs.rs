@@ -49,6 +49,13 @@ impl Stage for ShortMat4 {
     }
 }
 
+/// A frame before it has depth.
+pub type Bare<C, T, I> = Frame<C, NoDepth, Hither, T, I>;
+
+/// A frame that keeps depth as `D` does, or the reason why there is none.
+pub type Kept<'a, D, O, C, T, I> =
+    Result<Frame<C, <D as DepthKnob>::Test<'a, O>, Hither, T, I>, SceneError>;
+
 /// How depth is kept.
 pub trait DepthKnob: Named {
     /// What it is kept in, with a comparison.
@@ -60,18 +67,18 @@ pub trait DepthKnob: Named {
     ///
     /// [`SceneError`] where the words are not as many as the target's pixels.
     fn with<'a, O: Compare, C: Target, T: Tier, I: Correction>(
-        frame: Frame<C, NoDepth, Hither, T, I>,
+        frame: Bare<C, T, I>,
         depths: Depths<'a>,
-    ) -> Result<Frame<C, Self::Test<'a, O>, Hither, T, I>, SceneError>;
+    ) -> Kept<'a, Self, O, C, T, I>;
 }
 
 impl DepthKnob for NoDepth {
     type Test<'a, O: Compare> = Self;
 
     fn with<'a, O: Compare, C: Target, T: Tier, I: Correction>(
-        frame: Frame<C, Self, Hither, T, I>,
+        frame: Bare<C, T, I>,
         _: Depths<'a>,
-    ) -> Result<Frame<C, Self, Hither, T, I>, SceneError> {
+    ) -> Kept<'a, Self, O, C, T, I> {
         Ok(frame)
     }
 }
@@ -80,9 +87,9 @@ impl DepthKnob for u16 {
     type Test<'a, O: Compare> = DepthBuffer<'a, Self, O>;
 
     fn with<'a, O: Compare, C: Target, T: Tier, I: Correction>(
-        frame: Frame<C, NoDepth, Hither, T, I>,
+        frame: Bare<C, T, I>,
         depths: Depths<'a>,
-    ) -> Result<Frame<C, Self::Test<'a, O>, Hither, T, I>, SceneError> {
+    ) -> Kept<'a, Self, O, C, T, I> {
         let depth = DepthBuffer::try_new(depths.short, WIDTH, HEIGHT)?;
         Ok(frame.with_depth(depth.with_compare(O::default()))?)
     }
@@ -92,9 +99,9 @@ impl DepthKnob for u32 {
     type Test<'a, O: Compare> = DepthBuffer<'a, Self, O>;
 
     fn with<'a, O: Compare, C: Target, T: Tier, I: Correction>(
-        frame: Frame<C, NoDepth, Hither, T, I>,
+        frame: Bare<C, T, I>,
         depths: Depths<'a>,
-    ) -> Result<Frame<C, Self::Test<'a, O>, Hither, T, I>, SceneError> {
+    ) -> Kept<'a, Self, O, C, T, I> {
         let depth = DepthBuffer::try_new(depths.long, WIDTH, HEIGHT)?;
         Ok(frame.with_depth(depth.with_compare(O::default()))?)
     }
