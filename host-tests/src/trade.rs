@@ -1,8 +1,14 @@
 //! The trade of speed against accuracy: what each point of the knobs costs, how far off it is, and what it looks like.
 
 mod canvas;
+pub mod csv;
 pub mod emulate;
 pub mod ideal;
+#[cfg(test)]
+mod made;
+mod number;
+pub mod page;
+pub mod plot;
 mod sums;
 pub mod survey;
 
