@@ -106,6 +106,9 @@ fn plots(points: &[Point], isas: &[&str]) -> String {
     format!("<div class=\"plots\">\n{plots}</div>\n")
 }
 
+/// Over the pictures of a point.
+const HEADS: &str = "<p class=\"heads\"><span>drawn</span><span>as it should be</span><span>difference</span></p>\n";
+
 /// A point's knobs and pictures, shown when it is opened or led to.
 fn details(gallery: &mut Gallery, index: usize, point: &Point) -> String {
     let preset = point.preset.map(|preset| format!("<b>{}</b> ", escaped(preset)));
@@ -118,7 +121,7 @@ fn details(gallery: &mut Gallery, index: usize, point: &Point) -> String {
     let scenes: String = point.pictures.iter().map(|picture| scene(gallery, picture)).collect();
     format!(
         "<details data-point=\"{index}\"><summary>{}{} <small>{psnr}</small></summary>\n\
-         <div class=\"scenes\" id=\"p{index}\"><p class=\"knobs\">{}</p>\n{scenes}</div></details>\n",
+         <div class=\"scenes\" id=\"p{index}\"><p class=\"knobs\">{}</p>\n{HEADS}{scenes}</div></details>\n",
         preset.unwrap_or_default(),
         escaped(&point.name),
         knobs.join(" · "),

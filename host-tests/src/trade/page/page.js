@@ -10,8 +10,9 @@ for (const head of document.querySelectorAll('.points .sort')) {
     head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
     const rows = Array.from(body.rows);
     const number = row => Number(row.cells[column].dataset.v ?? NaN);
+    const name = row => row.querySelector('a').textContent;
     const order = (a, b) => {
-      if (column === 0) return a.cells[0].textContent.localeCompare(b.cells[0].textContent);
+      if (column === 0) return name(a).localeCompare(name(b));
       const [x, y] = [number(a), number(b)];
       if (Number.isNaN(x) || Number.isNaN(y)) return (Number.isNaN(x) - Number.isNaN(y)) * (down ? -1 : 1);
       return x === y ? 0 : x > y ? 1 : -1;

@@ -197,16 +197,11 @@ fn labels(
     named: &[(Option<usize>, &Group)],
     scales: &Scales,
 ) -> String {
-    let weight = |group: &Group| {
-        let small = !group.front && presets(points, group).is_empty();
-        (
-            Area::around(scales.place(group), if small { 2.0 } else { 4.5 }),
-            if small { 0.2 } else { 1.5 },
-        )
-    };
+    let taken = groups.iter().map(|group| obstacle(points, group, scales));
+    let taken = taken.chain(obstacles_of_line(groups, scales)).collect();
     let within =
         Area { right: WIDTH - 2.0, bottom: PLOT.bottom - 1.0, left: PLOT.left + 2.0, ..PLOT };
-    let mut labels = Labels { within, taken: groups.iter().map(weight).collect() };
+    let mut labels = Labels { within, taken };
     let mut svg = String::new();
     for &(number, group) in named {
         let presets = presets(points, group).join(", ");
@@ -226,6 +221,26 @@ fn labels(
         );
     }
     svg
+}
+
+/// What a mark covers, and how bad it is to hide it.
+fn obstacle(points: &[Point], group: &Group, scales: &Scales) -> (Area, f64) {
+    let small = !group.front && presets(points, group).is_empty();
+    let (reach, weight) = if small { (2.6, 0.4) } else { (5.5, 2.0) };
+    (Area::around(scales.place(group), reach), weight)
+}
+
+/// The same of the steps between the front's marks.
+fn obstacles_of_line(groups: &[Group], scales: &Scales) -> Vec<(Area, f64)> {
+    let places: Vec<(f64, f64)> =
+        groups.iter().filter(|group| group.front).map(|group| scales.place(group)).collect();
+    let step = |pair: &[(f64, f64)]| {
+        let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
+        let level = Area { left: x0, top: y0 - 1.0, right: x1, bottom: y0 + 1.0 };
+        let upright = Area { left: x1 - 1.0, top: y0.min(y1), right: x1 + 1.0, bottom: y0.max(y1) };
+        [(level, 0.8), (upright, 0.8)]
+    };
+    places.windows(2).flat_map(step).collect()
 }
 
 /// A line from a mark to its label, where that is far away.
@@ -280,7 +295,7 @@ mod tests {
         let points = [(1.0, 9.0), (2.0, 4.0)].map(|(cost, error)| made::at(cost, error));
         let text = svg(&points, Axis::Texel, "m4f");
         for point in &points {
-            assert!(text.contains(&format!("</tspan>{}</text>", point.name)), "{text}");
+            assert!(text.contains(&format!("\">{}</text>", point.name)), "{text}");
         }
     }
 

@@ -16,14 +16,13 @@ const LINE: f64 = 12.0;
 /// Right ends of the columns of costs and errors.
 const COLUMNS: [f64; 2] = [306.0, 352.0];
 
-/// The names of points at one place as one: `quick8 every8/every16 packed (2 points)`.
-pub(super) fn joined(names: &[&str]) -> String {
-    let [first, ..] = names else { return String::new() };
+/// The names of points at one place as one: `quick8 every8/every16 packed (2 points)`, the blanks in brackets not to be broken at.
+fn joined(names: &[&str]) -> String {
     if let [only] = names {
         return (*only).to_owned();
     }
     let words: Vec<Vec<&str>> = names.iter().map(|name| name.split(' ').collect()).collect();
-    let count = words[0].len();
+    let count = words.first().map_or(0, Vec::len);
     if words.iter().any(|words| words.len() != count) {
         return names.join("; ");
     }
@@ -36,8 +35,11 @@ pub(super) fn joined(names: &[&str]) -> String {
         }
         seen.join("/")
     };
-    debug_assert!(!first.is_empty(), "points have names");
-    format!("{} ({} points)", (0..count).map(column).collect::<Vec<_>>().join(" "), names.len())
+    format!(
+        "{} ({}\u{a0}points)",
+        (0..count).map(column).collect::<Vec<_>>().join(" "),
+        names.len()
+    )
 }
 
 /// The presets among the points of a group, each once.
@@ -47,11 +49,14 @@ pub(super) fn presets(points: &[Point], group: &Group) -> Vec<&'static str> {
 
 /// Lines of the key's width, broken between words or behind `/`.
 fn lines(text: &str) -> Vec<String> {
+    let letters = |text: &str| text.chars().count();
     let mut lines = vec![String::new()];
     let pieces = text.split_inclusive(' ').flat_map(|word| word.split_inclusive('/'));
     for piece in pieces {
         let last = lines.len() - 1;
-        if !lines[last].is_empty() && lines[last].len() + piece.trim_end().len() > LETTERS {
+        if !lines[last].is_empty()
+            && letters(&lines[last]) + letters(piece.trim_end_matches(' ')) > LETTERS
+        {
             lines.push(String::new());
         }
         let last = lines.len() - 1;
@@ -81,11 +86,26 @@ pub(super) fn key(
     (svg, y)
 }
 
+/// What a row says of its points: presets by name, with how many others are at their place, or else all names as one.
+fn described(points: &[Point], group: &Group) -> String {
+    let is_preset = |index: &&usize| points[**index].preset.is_some();
+    let (presets, others): (Vec<&usize>, Vec<&usize>) = group.members.iter().partition(is_preset);
+    let name = |index: &&usize| points[**index].name.as_str();
+    if presets.is_empty() {
+        return joined(&others.iter().map(name).collect::<Vec<_>>());
+    }
+    let presets: Vec<&str> = presets.iter().map(name).collect();
+    let presets = presets.join("; ");
+    match others.len() {
+        0 => presets,
+        others => format!("{presets} (and\u{a0}{others}\u{a0}more)"),
+    }
+}
+
 /// A row of the key, and where its last line is.
 fn entry(points: &[Point], number: Option<usize>, group: &Group, top: f64) -> (String, f64) {
     let presets = presets(points, group).join(", ");
-    let names: Vec<&str> = group.members.iter().map(|&index| points[index].name.as_str()).collect();
-    let names = joined(&names);
+    let names = described(points, group);
     let text = if presets.is_empty() { names } else { format!("{presets}: {names}") };
     let number = number.map_or_else(|| "·".to_owned(), |number| number.to_string());
     let [cost, error] = COLUMNS;
@@ -99,15 +119,20 @@ fn entry(points: &[Point], number: Option<usize>, group: &Group, top: f64) -> (S
     let lines = lines(&text);
     for (index, line) in lines.iter().enumerate() {
         let y = top + LINE * index as f64;
-        // A preset's name is at the start of the first line.
-        let (bold, rest) =
-            line.split_at(if index == 0 { presets.len().min(line.len()) } else { 0 });
-        let (bold, rest) = (escaped(bold), escaped(rest.trim_end()));
-        svg +=
-            &format!("<text x=\"26\" y=\"{y}\"><tspan class=\"named\">{bold}</tspan>{rest}</text>");
+        svg += &written(line, if index == 0 { presets.len() } else { 0 }, y);
     }
     svg.push('\n');
     (svg, top + LINE * (lines.len() - 1) as f64)
+}
+
+/// A line of a name, its start bold.
+fn written(line: &str, bold: usize, y: f64) -> String {
+    let (bold, rest) = line.split_at(bold.min(line.len()));
+    let (bold, rest) = (escaped(bold), escaped(rest.trim_end()));
+    if bold.is_empty() {
+        return format!("<text x=\"26\" y=\"{y}\">{rest}</text>");
+    }
+    format!("<text x=\"26\" y=\"{y}\"><tspan class=\"named\">{bold}</tspan>{rest}</text>")
 }
 
 #[cfg(test)]
@@ -117,7 +142,7 @@ mod tests {
     #[test]
     fn names_at_one_place_are_one() {
         assert_eq!(joined(&["a b c"]), "a b c");
-        assert_eq!(joined(&["a b c", "a d c", "a d e"]), "a b/d c/e (3 points)");
+        assert_eq!(joined(&["a b c", "a d c", "a d e"]), "a b/d c/e (3\u{a0}points)");
         assert_eq!(joined(&["a b", "a"]), "a b; a");
     }
 

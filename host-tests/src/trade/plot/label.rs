@@ -40,7 +40,7 @@ const DIRECTIONS: [(f64, f64); 8] = [
 ];
 
 /// From the mark's middle to the label's near side.
-const DISTANCES: [f64; 4] = [5.0, 11.0, 19.0, 28.0];
+const DISTANCES: [f64; 4] = [7.0, 12.0, 20.0, 30.0];
 
 /// What is taken already, and where labels may be.
 #[derive(Clone, Debug)]
