@@ -209,7 +209,7 @@ fn labels(
         let text = format!("{number} {presets}");
         let text = text.trim();
         let mark = scales.place(group);
-        let size = (LETTER.0 * text.chars().count() as f64 + 1.0, LETTER.1);
+        let size = (LETTER.0 * text.chars().count() as f64 + 4.0, LETTER.1);
         let area = labels.place(mark, size);
         let class = if presets.is_empty() { "number" } else { "named" };
         svg += &leader(mark, &area);
