@@ -59,8 +59,8 @@ pub fn distance(snapped: Snapped, [x, y, w]: Vertex, viewport: Viewport) -> f64 
         }
         Snapped::Projected { point, .. } => {
             let [sx, sy] = point.map(i64::from);
-            let across = &k * BigInt::from(i64::from(viewport.width) * (x + w));
-            let down = &k * BigInt::from(i64::from(viewport.height) * (w - y));
+            let across = &k * BigInt::from(viewport.width) * BigInt::from(x + w);
+            let down = &k * BigInt::from(viewport.height) * BigInt::from(w - y);
             [off(sx, across), off(sy, down), 0.0]
         }
     };
