@@ -218,4 +218,21 @@ mod tests {
         assert!(planes > 8000, "{planes} triangles had a plane");
         assert!(worst > 0.05, "the promise is far from what happens: {worst}");
     }
+
+    /// Sums wrap, so a walk has the same bits as the plane it follows, however long it is.
+    #[test]
+    fn walks_of_100_000_pixels_end_where_the_plane_is() {
+        for (x, y) in [(0x7fff_ffff, 0x8000_0001), (u32::MAX, 1), (12_345_678, 987_654_321)] {
+            let plane = Plane { origin: 0xdead_beef, x, y };
+            let mut at = plane.at(0, 0);
+            for column in 1..=100_000 {
+                at = at.wrapping_add(plane.x);
+                assert_eq!(at, plane.at(column, 0));
+            }
+            for row in 1..=100_000 {
+                at = at.wrapping_add(plane.y);
+                assert_eq!(at, plane.at(100_000, row));
+            }
+        }
+    }
 }
