@@ -1,6 +1,6 @@
 //! Colours stepped as one word, from one end of every channel to the other: over half a screen, along strips and in dots.
 
-use hither::{Gouraud, Hither, I16F16, Rgb565, Tier};
+use hither::{Gouraud, Hither, I16F16, Quick, Rgb565, Tier};
 use host_tests::oracle::{GRID, Rng, Space, Surface, Viewport, whole};
 use host_tests::record::{clip_vertex, frame};
 use host_tests::snapped;
@@ -84,6 +84,22 @@ fn check<T: Named>() {
         }
     }
     assert!(count > 100_000, "{count}");
+}
+
+/// The largest error that a search found, with `w` a 32nd larger at one side: a step of 1/2, 1/32 and 23/64, and 2^-7 of the
+/// range for the line.
+#[test]
+fn the_line_and_the_steps_add_up() {
+    let viewport = Viewport::new(507, 40);
+    let corners =
+        [[-270_685, 26_979, 296_479], [240_007, 138_195, 305_742], [40_914, -170_475, 296_479]];
+    let rgb = [[1 << 16; 3], [0; 3], [64_341; 3]];
+    let (steps, _) = off::<Quick<8>>(viewport, corners, rgb);
+    println!("{steps:?} steps");
+    for (steps, most) in steps.into_iter().zip([31.0, 63.0, 31.0]) {
+        assert!(steps <= 0.5 + 1.0 / 32.0 + 23.0 / 64.0 + most / 128.0, "{steps}");
+    }
+    assert!(steps[1] > 1.0, "{steps:?}");
 }
 
 in_every_tier! {

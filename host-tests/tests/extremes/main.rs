@@ -7,6 +7,7 @@
 //! | `color` | colours stepped as one word, from end to end |
 //! | `eye` | a vertex's `w` through 0, from both sides |
 //! | `hither` | the hither plane through one, two and three vertices |
+//! | `found` | the largest errors that a search found |
 //! | `steep` | the whole range of a varying and of depth within a pixel, planes seen from their side |
 //! | `steps` | sums over 131,072 pixels |
 //! | `texture` | sides of 1 to 1024, coordinates to the ends of their type |
@@ -41,6 +42,7 @@ macro_rules! in_every_tier {
 mod area;
 mod color;
 mod eye;
+mod found;
 mod grid;
 mod hither;
 mod steep;
