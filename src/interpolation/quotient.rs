@@ -8,11 +8,12 @@
 //! `x`, which is the change of `q` from pixel to pixel; where that is more than 5/128, there are no planes.
 //!
 //! Error budget of a value, in parts of 2^e:
-//! - both planes are off by less than 2^14.8 (`setup/slopes.rs`): 2 2^14.8 / 2^26 = 2^-10.2 at the farthest vertex, if it is
+//! - both planes are off by less than 2^14.91 (`setup/slopes.rs`): 2 2^14.91 / 2^26 = 2^-10.1 at the farthest vertex, if it is
 //!   16 times as far as the nearest; a mesh's triangle, whose vertices are about as far as each other, has 2^-14;
-//! - the reciprocal's 2^-14, and 2^-23 of what is cut.
+//! - the reciprocal's 2^-14, 2^-15 of a difference of 1, and 2^-23 of what is cut.
 //!
-//! `2^e` is the range of `u` over the triangle, or 2^11 raw steps where that is less: an error is then below a step.
+//! `2^e` is up to twice the range of `u` over the triangle, or 2^11 raw steps where that is less: an error is then below a
+//! step. All of it at its worst at once would pass 2^-10 of the range; the tests' largest is far from that.
 
 use super::{Reciprocal, Run, Varying};
 use crate::color::Lane;
