@@ -9,6 +9,7 @@ mod made;
 mod number;
 pub mod page;
 pub mod plot;
+pub mod readme;
 mod sums;
 pub mod survey;
 

@@ -428,7 +428,8 @@ mod tests {
         let ends = [(MOST, 1 << 26), (1 << 26, MOST), (1 << 30, 1 << 30), (77_777_777, 99_999_999)];
         for (first, last) in ends {
             let step = (last - first) / STEPS;
-            let mut of = Quotients::<0> { q: Plane::default(), n: [], each: [] };
+            let q = Plane::default();
+            let mut of = Quotients::<Newton<2>, 0> { q, n: [], each: [], reciprocal: PhantomData };
             of.q.x = unsigned(step);
             let (divisor, zeros) = normalized(unsigned(first));
             let r = signed(reciprocal(divisor) >> (7 - zeros));

@@ -73,3 +73,9 @@ pub fn spin(pairs: u32) {
         core::arch::asm!("2: addi {0}, {0}, -1", "bnez {0}, 2b", inout(reg) pairs => _);
     }
 }
+
+/// Ticks of [`spin`]. Not inlined: it is the same for any number of pairs.
+#[inline(never)]
+pub fn ticks_of_spin(pairs: u32) -> u32 {
+    ticks(|| spin(pairs))
+}

@@ -2,25 +2,37 @@
 //!
 //! ```text
 //! cargo run -p host-tests --release --bin trade [-- --isa m4f,m0] [--scene card,torus,..] [--quick]
+//!     [--check | --write]
 //! ```
 //!
-//! Prints a table. `--quick` takes fewer points.
+//! Prints a table, and writes `target/trade/trade.csv`, the page `target/trade/index.html` and its plots as SVG. `--quick` takes
+//! fewer points. `--check` fails where a preset is beaten in every error, a mesh has gaps or double pixels, or README.md or its
+//! plot says something else; `--write` writes them anew.
 
+use hither_examples::picture::target_folder;
 use hither_scenes::trade::{Scene, more, quick};
-use host_tests::cross::{MACHINES, Machine};
-use host_tests::measure::command::{chosen, progress};
-use host_tests::trade::Point;
+use host_tests::cross::{MACHINES, Machine, root, toolchain};
+use host_tests::measure::command::{Documents, chosen, progress, tables};
+use host_tests::measure::size::flash_of_preset;
 use host_tests::trade::emulate::{Count, Firmware, Units, cost, count};
 use host_tests::trade::ideal::Ideal;
+use host_tests::trade::plot::{Axis, svg};
 use host_tests::trade::survey::{Sketch, Survey};
+use host_tests::trade::{Point, csv, page, readme};
 use indicatif::ProgressBar;
+use std::fs;
+use std::path::Path;
 use std::process::ExitCode;
+
+/// The README's plot.
+const PLOT: &str = "docs/trade.svg";
 
 /// What is asked for.
 struct Asked {
     machines: Vec<&'static Machine>,
     scenes: Vec<Scene>,
     quick: bool,
+    documents: Documents,
 }
 
 fn main() -> ExitCode {
@@ -37,8 +49,12 @@ fn main() -> ExitCode {
 /// Reads the arguments.
 fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
     let by_name = |list: &str| chosen(list, MACHINES.iter(), |machine| machine.isa);
-    let mut asked =
-        Asked { machines: by_name("m4f,m0")?, scenes: Scene::ALL.to_vec(), quick: false };
+    let mut asked = Asked {
+        machines: by_name("m4f,m0")?,
+        scenes: Scene::ALL.to_vec(),
+        quick: false,
+        documents: Documents::Leave,
+    };
     while let Some(argument) = arguments.next() {
         let mut list = || arguments.next().ok_or(format!("{argument} needs a list"));
         match argument.as_str() {
@@ -47,15 +63,26 @@ fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
                 asked.scenes = chosen(&list()?, Scene::ALL.into_iter(), |scene| scene.name())?;
             }
             "--quick" => asked.quick = true,
-            _ => return Err(format!("{argument} is not --isa, --scene or --quick")),
+            "--check" => asked.documents = Documents::Check,
+            "--write" => asked.documents = Documents::Write,
+            _ => {
+                return Err(format!(
+                    "{argument} is not --isa, --scene, --quick, --check or --write"
+                ));
+            }
         }
+    }
+    let isas: Vec<&str> = asked.machines.iter().map(|machine| machine.isa).collect();
+    let all = asked.scenes.len() == Scene::ALL.len() && !asked.quick && isas == ["m0", "m4f"];
+    if asked.documents != Documents::Leave && !all {
+        return Err("--check and --write need m4f and m0, every scene and every point".to_owned());
     }
     Ok(asked)
 }
 
 /// Measures what is asked for.
 fn trade(asked: &Asked) -> Result<(), String> {
-    let bar = progress(64 + 4 * asked.machines.len() as u64);
+    let bar = progress(64 + 5 * asked.machines.len() as u64);
     bar.set_message("host: the scenes in exact numbers");
     let scenes: Vec<Ideal> = asked.scenes.iter().map(|&scene| Ideal::new(scene)).collect();
     bar.inc(1);
@@ -63,11 +90,63 @@ fn trade(asked: &Asked) -> Result<(), String> {
     for machine in &asked.machines {
         bar.set_message(format!("{}: what the points cost", machine.isa));
         costs(machine, &mut points, &firmwares, &bar)?;
+        flash(machine, &mut points, &bar)?;
     }
-    bar.finish_and_clear();
     let points: Vec<Point> = points.into_iter().map(|(point, _)| point).collect();
+    bar.finish_and_clear();
     print(&points);
-    Ok(())
+    publish(asked, &points)
+}
+
+/// Writes the files, and checks or writes the README's.
+fn publish(asked: &Asked, points: &[Point]) -> Result<(), String> {
+    let mut isas: Vec<&str> = asked.machines.iter().map(|machine| machine.isa).collect();
+    // What most readers have is first.
+    isas.sort_by_key(|isa| *isa != "m4f");
+    let Some(first) = asked.machines.first() else {
+        return Err("no instruction set is asked for".to_owned());
+    };
+    let toolchain = toolchain(first.target)?;
+    let folder = target_folder().join("trade");
+    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    csv::write(&folder.join("trade.csv"), points)?;
+    for isa in &isas {
+        for axis in Axis::ALL {
+            let name = format!("{isa}-{}.svg", axis.name());
+            write(&folder.join(name), &svg(points, axis, isa))?;
+        }
+    }
+    write(&folder.join("index.html"), &page::html(points, &isas, &toolchain))?;
+    println!("\nPage       {}", folder.join("index.html").display());
+    println!("Table      {}", folder.join("trade.csv").display());
+    if asked.documents == Documents::Check {
+        readme::check(points, &isas)?;
+    }
+    tables("trade", asked.documents, &["README.md"], &[readme::block(points, &isas, &toolchain)])?;
+    plot(asked.documents, points, &toolchain)
+}
+
+/// Checks or writes the README's plot. What another toolchain made is not compared.
+fn plot(documents: Documents, points: &[Point], toolchain: &str) -> Result<(), String> {
+    let (path, made) = (root().join(PLOT), svg(points, Axis::Psnr, "m4f"));
+    let text = |path: &Path| {
+        fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    match documents {
+        Documents::Leave => Ok(()),
+        Documents::Write => write(&path, &made),
+        Documents::Check => {
+            let is_ours = text(&root().join("README.md"))?.contains(toolchain);
+            if is_ours && text(&path)? != made {
+                return Err(format!("{PLOT} is not the plot (`trade -- --write` makes it anew)"));
+            }
+            Ok(())
+        }
+    }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 type Surveyed = (Point, Vec<Sketch>);
@@ -107,6 +186,20 @@ fn costs(
             cost(machine.isa, point, &counts, number, units)?;
         }
         rest = others;
+        bar.inc(1);
+    }
+    Ok(())
+}
+
+/// Builds a firmware for each preset on a machine.
+fn flash(machine: &Machine, points: &mut [Surveyed], bar: &ProgressBar) -> Result<(), String> {
+    bar.set_message(format!("{}: flash of the presets", machine.isa));
+    for (point, _) in points {
+        let Some(preset) = point.preset else { continue };
+        let bytes = flash_of_preset(machine, preset)?;
+        for cost in point.costs.iter_mut().filter(|cost| cost.isa == machine.isa) {
+            cost.flash = Some(bytes);
+        }
         bar.inc(1);
     }
     Ok(())

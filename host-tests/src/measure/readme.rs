@@ -7,8 +7,8 @@ use super::{Figure, TIERS, unit_name};
 use hither_scenes::workloads::Workload;
 use std::fmt::Write;
 
-/// The tables there are: `peers` by the command of that name, the others by `measure`.
-const NAMES: [&str; 5] = ["cost", "cost-all", "error", "size", "peers"];
+/// The tables there are: `peers` by the command of that name, `presets` by `trade`, the others by `measure`.
+const NAMES: [&str; 6] = ["cost", "cost-all", "error", "size", "peers", "presets"];
 
 /// Names and texts of the tables.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,18 +66,18 @@ pub fn blocks(figures: &[Figure], sizes: &[Size], toolchain: &str) -> Vec<Block>
 }
 
 /// The line under a table.
-pub(super) fn made_by(toolchain: &str) -> String {
+pub(crate) fn made_by(toolchain: &str) -> String {
     format!("\nMade by `{toolchain}`, opt-level 3, LTO.\n")
 }
 
 /// A row of a table.
-pub(super) fn row(text: &mut String, cells: impl IntoIterator<Item = String>) {
+pub(crate) fn row(text: &mut String, cells: impl IntoIterator<Item = String>) {
     let cells: Vec<String> = cells.into_iter().collect();
     let _ = writeln!(text, "| {} |", cells.join(" | "));
 }
 
 /// The heading of a table, with a rule under it.
-pub(super) fn heading(text: &mut String, cells: Vec<String>) {
+pub(crate) fn heading(text: &mut String, cells: Vec<String>) {
     let rule = vec!["---".to_owned(); cells.len()];
     row(text, cells);
     row(text, rule);

@@ -75,6 +75,17 @@ pub fn measure(machine: &Machine, mut done: impl FnMut()) -> Result<Vec<Size>, S
     Ok(sizes)
 }
 
+/// Bytes of flash of a firmware that draws a textured and a shaded mesh by a preset, over an empty firmware's.
+///
+/// # Errors
+///
+/// What the compiler, the linker or the emulator says.
+pub fn flash_of_preset(machine: &Machine, preset: &str) -> Result<u64, String> {
+    let empty = bytes(machine, "size")?;
+    let features = format!("size,scenes,{}", preset.to_lowercase());
+    Ok(bytes(machine, &features)?.flash.saturating_sub(empty.flash))
+}
+
 /// Bytes of stack that the whole pipeline, W6g, may take.
 pub const STACK_LIMIT: u64 = 1536;
 

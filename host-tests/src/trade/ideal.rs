@@ -65,11 +65,9 @@ impl Corner {
     #[must_use]
     pub fn on_screen(&self, scene: Scene) -> Option<[f64; 2]> {
         let [x, y, _, w] = self.clip.map(|v| v as f64);
-        (w >= hither(scene)).then(|| {
-            let at =
-                [(x / w + 1.0) * f64::from(WIDTH) / 2.0, (1.0 - y / w) * f64::from(HEIGHT) / 2.0];
-            at
-        })
+        let (width, height) = (f64::from(WIDTH), f64::from(HEIGHT));
+        let at = [(x / w + 1.0) * width / 2.0, (1.0 - y / w) * height / 2.0];
+        (w >= hither(scene)).then_some(at)
     }
 }
 

@@ -38,8 +38,11 @@ struct Group {
     front: bool,
 }
 
+/// Costs that differ by less than this part are the same: an unrelated change of the code moves them by more.
+const SAME: f64 = 0.01;
+
 /// The points that no other beats, from the cheapest to the dearest: none is at least as good in both and better in one. Points
-/// at the same place do not beat each other. Those that lack the error, or a cost on this instruction set, do not take part.
+/// of one error whose costs are within [`SAME`] of the cheapest of them are at the same place, and do not beat each other. Those that lack the error, or a cost on this instruction set, do not take part.
 #[must_use]
 pub fn pareto(points: &[Point], axis: Axis, isa: &str) -> Vec<usize> {
     let groups = groups(points, axis, isa);
@@ -62,15 +65,16 @@ fn groups(points: &[Point], axis: Axis, isa: &str) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut best = None;
     for Place { index, cost, error } in places {
-        match groups.last_mut() {
-            Some(group) if (group.cost, group.error) == (cost, error) => group.members.push(index),
-            _ => {
-                let badness = axis.badness(error);
-                let front = best.is_none_or(|best| badness < best);
-                best = if front { Some(badness) } else { best };
-                groups.push(Group { cost, error, members: vec![index], front });
-            }
+        let near = |group: &&mut Group| cost <= group.cost * (1.0 + SAME);
+        let mut same = groups.iter_mut().rev().take_while(near);
+        if let Some(group) = same.find(|group| group.error == error) {
+            group.members.push(index);
+            continue;
         }
+        let badness = axis.badness(error);
+        let front = best.is_none_or(|best| badness < best);
+        best = if front { Some(badness) } else { best };
+        groups.push(Group { cost, error, members: vec![index], front });
     }
     groups
 }
@@ -78,15 +82,17 @@ fn groups(points: &[Point], axis: Axis, isa: &str) -> Vec<Group> {
 #[cfg(test)]
 mod tests {
     use super::super::made;
-    use super::{Axis, pareto};
+    use super::{Axis, SAME, pareto};
     use crate::trade::Point;
 
-    /// The definition: no other is at least as good in both and better in one.
+    /// The definition: no other is at least as good in both and better in one; of one error and nearly one cost, none is better.
     fn defined(points: &[Point], axis: Axis, isa: &str) -> Vec<usize> {
         let place = |index: usize| {
             axis.place(&points[index], isa).map(|(cost, error)| (cost, axis.badness(error)))
         };
-        let beats = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
+        let beats = |a: (f64, f64), b: (f64, f64)| {
+            a.0 <= b.0 && a.1 <= b.1 && a != b && (a.1 < b.1 || a.0 * (1.0 + SAME) < b.0)
+        };
         let all = 0..points.len();
         let unbeaten = |&index: &usize| {
             place(index).is_some_and(|it| !all.clone().filter_map(place).any(|a| beats(a, it)))

@@ -52,7 +52,7 @@ mod texture;
 
 use ::hither::{
     Affine, ClipVertex, Correction, DepthWord, Exact, Frame, Hither, I16F16, Interpolates, NoDepth,
-    PackedEvery, Perspective, PerspectiveEvery, Quick, Tier,
+    Packed, Perspective, PerspectiveEvery, Quick, Tier,
 };
 use host_tests::accuracy::{
     CorrectionName, Errors, Family, Quantity, Reference, Scene, TOLERANCES, measure,
@@ -63,7 +63,7 @@ use host_tests::record::{Mark, Probe, Record, clip_vertex, frame};
 use host_tests::snapped;
 
 /// The correction that steps in one word what it can.
-type Packed8 = PackedEvery<8>;
+type Packed8 = Packed<PerspectiveEvery<8>>;
 
 /// The correction that divides at the ends of pieces.
 type Pieces16 = PerspectiveEvery<16>;

@@ -40,7 +40,7 @@ fn main() -> ! {
     // Two reads with nothing between.
     let overhead = clock::ticks(|| {});
     for pairs in [1_000, 101_000] {
-        println!("spin {pairs} {}", clock::ticks(|| clock::spin(pairs)).wrapping_sub(overhead));
+        println!("spin {pairs} {}", clock::ticks_of_spin(pairs).wrapping_sub(overhead));
     }
     let mut buffers = Buffers { color: COLOR.take(), depth: DEPTH.take() };
     measure(&EXACT, &mut buffers, overhead);

@@ -31,14 +31,26 @@ fn print(number: u32) -> bool {
 }
 
 /// Draws the workload; whether it could.
-#[cfg(not(any(feature = "w1", feature = "w5", feature = "w6g", feature = "shaders")))]
+#[cfg(not(any(
+    feature = "w1",
+    feature = "w5",
+    feature = "w6g",
+    feature = "shaders",
+    feature = "scenes"
+)))]
 #[inline(never)]
 fn work() -> bool {
     black_box(true)
 }
 
 /// Draws the workload; whether it could.
-#[cfg(any(feature = "w1", feature = "w5", feature = "w6g", feature = "shaders"))]
+#[cfg(any(
+    feature = "w1",
+    feature = "w5",
+    feature = "w6g",
+    feature = "shaders",
+    feature = "scenes"
+))]
 #[inline(never)]
 fn work() -> bool {
     workload::draw().is_some()
@@ -115,6 +127,37 @@ mod workload {
         black_box(&buffers);
         workloads::textured::<Tier>(&mut buffers, clock).ok()?;
         black_box(buffers);
+        Some(())
+    }
+}
+
+/// A textured and a shaded mesh, at a preset's point.
+#[cfg(feature = "scenes")]
+mod workload {
+    use core::hint::black_box;
+    use hither_scenes::trade::{Depths, Geometry, PIXELS, PresetPoint, Scene, picture};
+    use static_cell::ConstStaticCell;
+
+    #[cfg(feature = "speed")]
+    type Preset = hither::Speed;
+    #[cfg(feature = "balance")]
+    type Preset = hither::Balance;
+    #[cfg(feature = "fidelity")]
+    type Preset = hither::Fidelity;
+
+    static COLOR: ConstStaticCell<[u16; PIXELS]> = ConstStaticCell::new([0; PIXELS]);
+    static SHORT: ConstStaticCell<[u16; PIXELS]> = ConstStaticCell::new([0; PIXELS]);
+    static LONG: ConstStaticCell<[u32; PIXELS]> = ConstStaticCell::new([0; PIXELS]);
+    static GEOMETRY: ConstStaticCell<Geometry> = ConstStaticCell::new(Geometry::EMPTY);
+
+    pub fn draw() -> Option<()> {
+        let (color, geometry) = (COLOR.try_take()?, GEOMETRY.try_take()?);
+        let mut depths = Depths { short: SHORT.try_take()?, long: LONG.try_take()? };
+        for what in [(Scene::Card, true), (Scene::Torus, false)] {
+            let lent = depths.lend();
+            picture::<PresetPoint<Preset>>(what, geometry, color, lent, || 0).ok()?;
+            black_box(&color);
+        }
         Some(())
     }
 }

@@ -31,7 +31,7 @@ pub fn quick(v: &mut impl Visitor) {
         Of<Q8, Perspective>,
         Of<Q8, Every<8>>,
         Of<Q8, Every<16>>,
-        Of<Q8, Packed<Every<32>>>,
+        Of<Q4, Packed<Affine>>,
         Of<Q8, Wide<Every<8>>>,
         Of<Q4, Packed<Every<8>>>,
         Of<Q4, Perspective>,
