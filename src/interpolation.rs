@@ -10,15 +10,15 @@
 //! Formats: weights Q32; `q` and the numerators `n` Q30 in `i32`, where `n` is in units of
 //! `2^e`, the power of two at or above the largest `|u_i - u_0|`; so `|n| <= q <= 1`.
 //!
-//! Error budget in the exact tier, in units of the attribute's range, at `w = 4096 h`
+//! Error budget in the exact tier, in units of `2^e`, at `w = 4096 h`
 //! (`q = 2^-12`):
 //! - a block of [`BLOCK`] = 64 pixels starts from the exact edge functions: weights within 2^-29 of
 //!   themselves and 2^-30 (see [`Factor`]), `n` and `q` within 2^-28;
 //! - a pixel's step is rounded to 2^-31, so 63 steps add 2^-25 to `n` and to `q`;
 //! - both divided by `q`: 2 (2^-25 + 2^-28) / 2^-12 < 2^-11.8; the reciprocal adds 2^-29.
 //!
-//! That is a quarter of the contract's 2^-10. Farther than 4096 hither distances it grows with `w`,
-//! up to the clamp: a quotient is kept between the vertices', and so is the value.
+//! `2^e` is less than twice the range: within 2^-10.8 of that, where the contract says 2^-10. Farther than 4096 hither
+//! distances it grows with `w`, up to the clamp: a quotient is kept between the vertices', and so is the value.
 //!
 //! Along a straight line a value is stepped in raw steps times 2^32, so that a pixel costs one addition
 //! of 64 bits a varying, whose high word is the value.

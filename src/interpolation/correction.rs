@@ -53,11 +53,11 @@ pub struct PerspectiveEvery<const N: u8>;
 pub struct Affine;
 
 /// For speed, in the quick tiers: what a pixel is made of is stepped as one word where it fits. Colours of RGB565 take 10 or 11
-/// bits each and are within a step of it (of straight pieces of 32 within 1 1/2, of 64 within 2 1/2); texture coordinates take 16 bits, to 2^-16. What is not linear on the screen, and
-/// not in pieces, is not packed.
+/// bits each and are within 0.9 steps of the straight line they follow (in pieces of 32 within 1 1/2, of 64 within 2 1/2);
+/// texture coordinates take 16 bits, to 2^-16. What is divided at each pixel is not packed.
 ///
 /// With [`PerspectiveEvery<N>`] a straight line over the whole triangle may be as far off as the fragment allows
-/// ([`Fragment::TOLERANCE`](crate::Fragment::TOLERANCE)). Texture coordinates with `N` of 8 or more: where `1 / w` changes by
+/// ([`Fragment::TOLERANCE`](crate::Fragment::TOLERANCE)): half a step of green more. Texture coordinates with `N` of 8 or more: where `1 / w` changes by
 /// at most half of itself along 32 pixels, those are divided for once, and the line bends every 8, which is about as near as
 /// straight lines of 8; elsewhere lines are straight and 8 long, for an `N` above as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

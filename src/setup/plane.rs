@@ -18,7 +18,7 @@
 //! `v`'s floor is half a unit of `G`, `G`'s floor is one, the reciprocal is a part in 2^29.5 of at most 2^30 units: 3
 //! units of `2^t` in all. In a box below `2^(n + 1)` pixels `t` is at most `10 - n`, so a covered pixel is off by less than
 //! `2 2^(n + 1) 3 2^(10 - n)`, and `b`'s floor, a unit of `2^(t + 1)`: 2^14 units for boxes below 512 px. For others `t` is at
-//! most 2, which is 2^15 to the guard band's ends and a little more for the floor; what the reciprocal is off is in proportion
+//! most 2, which is 2^15.2 to the guard band's ends; what the reciprocal is off is in proportion
 //! to `v - v_0`, 2^3 units in all. `t` is the least that `e_i 2^k` fits with, but not below 0: usually far less. Where it is
 //! more, in a triangle whose length is some hundred times its width, there is no plane.
 

@@ -4,10 +4,10 @@
 use arbitrary::Arbitrary;
 use hither::{
     Affine, Always, AsVaryings, BufferSize, Compare, Correction, Counts, Cull, DepthBuffer,
-    DepthWord, Exact, FaceColors, Flat, Fragment, Frame, Framebuffer, Gouraud, Gray8, Hither,
-    I16F16, Interpolates, Less, Lit, Mat4, Mesh, MeshError, NoDepth, NormalColor, Perspective,
-    PerspectiveEvery, PixelFormat, Plane, Quick, Rgb565, Rgb565Be, Rgb888, Sample, Target, Texture,
-    Textured, Tier, Vertex, VertexStage,
+    DepthWord, DividedBy, Exact, FaceColors, Flat, Fragment, Frame, Framebuffer, Gouraud, Gray8,
+    Hither, I16F16, Interpolates, Less, Lit, Mat4, Mesh, MeshError, NoDepth, NormalColor, Packed,
+    Perspective, PerspectiveEvery, PixelFormat, Plane, Quick, Rgb565, Rgb565Be, Rgb888, Sample,
+    Table, Target, Texture, Textured, Tier, Vertex, VertexStage, Wide,
 };
 use hither_fuzz::matrix::{Step, product};
 use hither_fuzz::number::{Coefficients, Raw, vector};
@@ -291,10 +291,14 @@ fn flat<T: Tier>(scene: &Scene) {
 fn tier<T: Tier>(scene: &Scene) {
     flat::<T>(scene);
     if let Ok(hither) = Hither::new(scene.input.hither.fixed()) {
-        match scene.input.choice >> 4 & 3 {
+        match scene.input.choice >> 4 & 7 {
             0 => shaded::<T, Perspective>(scene, hither),
             1 => shaded::<T, PerspectiveEvery<2>>(scene, hither),
             2 => shaded::<T, PerspectiveEvery<64>>(scene, hither),
+            3 => shaded::<T, Packed<PerspectiveEvery<8>>>(scene, hither),
+            4 => shaded::<T, Packed<DividedBy<PerspectiveEvery<64>, Table>>>(scene, hither),
+            5 => shaded::<T, Packed<Affine>>(scene, hither),
+            6 => shaded::<T, Wide<DividedBy<Perspective, Table>>>(scene, hither),
             _ => shaded::<T, Affine>(scene, hither),
         }
     }

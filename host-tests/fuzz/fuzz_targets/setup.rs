@@ -4,8 +4,8 @@
 
 use arbitrary::Arbitrary;
 use hither::{
-    ClipVertex, Cull, Exact, Facing, Frame, Hither, I16F16, Interpolates, NoDepth, Outcome,
-    Perspective, Quick, Tier, Vertex, Viewport,
+    ClipVertex, Cull, Exact, Facing, Fidelity, Frame, Hither, I16F16, Interpolates, NoDepth,
+    Outcome, Perspective, Quick, Tier, Vertex, Viewport,
 };
 use hither_fuzz::cover::Cover;
 use hither_fuzz::number::{Point, Raw};
@@ -39,9 +39,11 @@ impl Input {
         self.triangles[triangle].map(|point| point.vertex(width, height))
     }
 
-    fn frame(&self) -> Frame<Checked<()>> {
+    fn frame(&self) -> Plain<hither::NoHither, Exact> {
         let target = Checked::new(&self.place);
-        Frame::with_viewport(target, self.place.viewport()).with_cull(self.cull())
+        Frame::with_viewport(target, self.place.viewport())
+            .with_cull(self.cull())
+            .with_preset(Fidelity)
     }
 
     fn hides(&self, facing: Facing) -> bool {

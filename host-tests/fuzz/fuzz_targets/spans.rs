@@ -50,7 +50,9 @@ impl Input {
 
     fn frame<T: Tier>(&self) -> Plain<hither::NoHither, T, 0> {
         let target = Checked::new(&self.place);
-        Frame::with_viewport(target, self.place.viewport()).with_tier(T::default())
+        Frame::with_viewport(target, self.place.viewport())
+            .with_tier(T::default())
+            .with_correction(Perspective)
     }
 }
 

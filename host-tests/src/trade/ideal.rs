@@ -78,6 +78,12 @@ impl Covered {
 }
 
 impl Triangle {
+    /// The corners' `[x, y, w]`, in units of `2^-(16 + f)`.
+    #[must_use]
+    pub fn corners_in_clip_space(&self) -> [[i64; 3]; 3] {
+        self.clip.map(|[x, y, _, w]| [x, y, w].map(|v| v as i64))
+    }
+
     /// `z / w` at a pixel.
     #[must_use]
     pub fn depth(&self, at: &Covered) -> f64 {
