@@ -98,6 +98,7 @@ mod framebuffer;
 mod interpolation;
 mod math;
 mod mesh;
+mod plan;
 mod preset;
 mod setup;
 mod span;
@@ -124,6 +125,10 @@ pub use interpolation::{
     PerspectiveEvery, Reciprocal, Table, Wide, Width,
 };
 pub use mesh::{AsVaryings, Lit, Mesh, MeshError, NormalColor, StoredPosition, VertexStage};
+pub use plan::{
+    Bits, Budget, Corrected, Every, Plan, PlanError, Promise, Scene, SelectCorrection, SelectDepth,
+    SelectReciprocal, SelectTier, SelectTransform, SelectWidth, Steps,
+};
 pub use preset::{Balance, Fidelity, Preset, Speed};
 pub use setup::{Cull, Facing, Tier};
 pub use texture::{Texture, TextureSize};

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 20] = [
+const ORDER: [&str; 21] = [
     "math",
     "color",
     "buffer",
@@ -22,6 +22,7 @@ const ORDER: [&str; 20] = [
     "dither",
     "mesh",
     "preset",
+    "plan",
     "draw",
     "band",
     "eg",
