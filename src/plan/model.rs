@@ -34,8 +34,13 @@ use super::{Point, Varied};
 /// A raw step: varyings are in units of it.
 const UNIT: f64 = 65_536.0;
 
-/// How far off a linear plane of a varying is, in raw steps.
-const PLANE: f64 = 64.0;
+/// How far off a linear plane of a varying is, in raw steps: 2^-8 of them for a unit. A gradient's floors are 1 1/2 of `2^t` units
+/// (`setup/plane.rs`), for all columns and rows from vertex 0 to a covered pixel. In boxes below `2^(n + 1) <= 512` pixels `t` is at
+/// most `10 - n`: 24 raw steps, and 8 by the floor at vertex 0. In others it is 2, to the guard band's ends.
+const fn plane(scene: &Scene) -> f64 {
+    let farthest = (1024 + scene.width + 1024 + scene.height) as f64;
+    (farthest * 6.0 / 256.0).max(32.0)
+}
 
 /// The steps of green in RGB565.
 const GREEN: f64 = 63.0;
@@ -158,12 +163,22 @@ const fn arcs(scene: &Scene, change: f64, newton_steps: u32) -> f64 {
     change * (line + reciprocal + part(14) * ratio(scene)) + 64.0
 }
 
+/// The power of two at a number of 1 or more, or above it.
+const fn power(v: f64) -> f64 {
+    let mut power = 1.0;
+    while power < v {
+        power *= 2.0;
+    }
+    power
+}
+
 /// How far varyings that are divided at each pixel are off.
-const fn divided(scene: &Scene, change: f64) -> f64 {
+const fn divided(scene: &Scene, exact: bool, change: f64) -> f64 {
     let distance = scene.far as f64 / scene.near as f64;
-    // 2^e of `interpolation/quotient.rs`.
-    let unit = 2.0 * change.max(1024.0);
-    let planes = unit * (part(14) * ratio(scene).min(16.0) + part(14));
+    // 2^e of `interpolation/quotient.rs`, and what both planes are off beside the largest `q`, which is 2^30 at least.
+    let unit = power(change).max(2048.0);
+    let planes = if exact { part(14) } else { part(15) };
+    let planes = unit * (planes * ratio(scene).min(16.0) + part(15));
     // By edge functions, where those have no planes.
     let edges = change * part(24) * distance;
     planes.max(edges) + 0.5
@@ -171,11 +186,12 @@ const fn divided(scene: &Scene, change: f64) -> f64 {
 
 /// A varying that changes by at most so many raw steps, in those; a straight line may be off by so many, and takes so many for
 /// what it is packed in.
-const fn varying(scene: &Scene, change: f64, knobs: Varied, packed: [f64; 2]) -> f64 {
-    let [tolerance, word] = if knobs.varying_bits == 16 { packed } else { [128.0, PLANE + 0.5] };
+const fn varying(scene: &Scene, exact: bool, change: f64, knobs: Varied, packed: [f64; 2]) -> f64 {
+    let [tolerance, word] =
+        if knobs.varying_bits == 16 { packed } else { [128.0, plane(scene) + 0.5] };
     match knobs.every {
         0 => change * bend(ratio(scene)) + word,
-        1 => divided(scene, change),
+        1 => divided(scene, exact, change),
         _ => straight(scene, change, tolerance) + word,
     }
 }
@@ -184,13 +200,13 @@ const fn varying(scene: &Scene, change: f64, knobs: Varied, packed: [f64; 2]) ->
 pub(super) const fn texels(scene: &Scene, exact: bool, knobs: Varied) -> f64 {
     let change = scene.repeats as f64 * UNIT;
     let tolerance = 128.0;
-    let mut off = varying(scene, change, knobs, [tolerance, PLANE + 17.0]);
+    let mut off = varying(scene, exact, change, knobs, [tolerance, plane(scene) + 17.0]);
     if !exact && knobs.every > 1 && bends(scene, change, tolerance) {
-        let line = if knobs.varying_bits == 16 {
-            arcs(scene, change, knobs.newton_steps)
-        } else {
-            pieces(scene, change, knobs) + 1.0
-        };
+        // Triangles that are too thin for planes are drawn in pieces, whatever the width.
+        let mut line = pieces(scene, change, knobs) + 1.0;
+        if knobs.varying_bits == 16 {
+            line = line.max(arcs(scene, change, knobs.newton_steps));
+        }
         off = off.max(line);
     }
     off * scene.texture as f64 / UNIT
@@ -201,7 +217,7 @@ pub(super) const fn color_steps(scene: &Scene, exact: bool, knobs: Varied) -> f6
     // Of a lane: 1/32 is cut, and 23 steps are rounded to 1/64.
     let lane = (1.0 / 32.0 + 23.0 / 64.0) * UNIT / GREEN;
     let packed = [512.0, if exact { 0.0 } else { lane }];
-    let mut off = varying(scene, UNIT, knobs, packed);
+    let mut off = varying(scene, exact, UNIT, knobs, packed);
     let tolerance = if knobs.varying_bits == 16 { 512.0 } else { 128.0 };
     if knobs.every > 1 && bends(scene, UNIT, tolerance) {
         off = off.max(pieces(scene, UNIT, knobs) + 1.0);
@@ -213,6 +229,6 @@ pub(super) const fn color_steps(scene: &Scene, exact: bool, knobs: Varied) -> f6
 pub(super) const fn depth_steps(scene: &Scene, depth_bits: u32) -> f64 {
     match depth_bits {
         16 => 1.0,
-        _ => scene.width as f64 * part(17) + part(12),
+        _ => 1.5 * scene.width as f64 * part(16) + part(11),
     }
 }
