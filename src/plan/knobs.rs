@@ -152,7 +152,7 @@ impl SelectReciprocal for Steps<2> {
 ///
 /// hither::plan! {
 ///     /// A cube's worth of space around a camera.
-///     pub Room = Scene::new(96, 64).range(1.0, 9.0).model(2.0, 2.0).colors();
+///     pub Room = Scene::new(96, 64).range(1.0, 9.0).model(2.0, 2.0).colors().within_pixels(0.2);
 /// }
 ///
 /// let (mut color, mut depth) = ([0; 96 * 64], [<Room as Preset>::Depth::MAX; 96 * 64]);

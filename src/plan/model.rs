@@ -50,6 +50,11 @@ const fn part(n: u32) -> f64 {
     1.0 / (1u64 << n) as f64
 }
 
+/// `2^n`, of up to 62.
+const fn power_of(n: u32) -> f64 {
+    (1u64 << if n < 62 { n } else { 62 }) as f64
+}
+
 /// A square root of 1 or more, by Newton's iteration.
 const fn root(v: f64) -> f64 {
     let mut root = if v > 1.0 { v } else { 1.0 };
@@ -97,7 +102,8 @@ pub(super) const fn pixels(scene: &Scene, point: Point) -> f64 {
     let side = if scene.width > scene.height { scene.width } else { scene.height } as f64;
     let reach = 3.0 * scene.extent as f64;
     let cut = cut(scene);
-    let short = if point.transform_bits == 16 && cut > 0 { part(17 - cut) * reach } else { 0.0 };
+    let short =
+        if point.transform_bits == 16 && cut > 0 { power_of(cut) * part(17) * reach } else { 0.0 };
     let off = (reach + 2.0) * part(17) + short;
     let near = scene.near as f64;
     if off >= near {
@@ -172,16 +178,28 @@ const fn power(v: f64) -> f64 {
     power
 }
 
-/// How far varyings that are divided at each pixel are off.
+/// The unit of a varying that is divided, or linear in the exact tier, in raw steps: `2^e` of `interpolation/quotient.rs`.
+const fn unit(scene: &Scene, change: f64) -> f64 {
+    power(change).max(2048.0).max(power(scene.coordinate as f64 * UNIT) / 32.0)
+}
+
+/// What a difference of a power of two lacks, as Q31 has no 1: 2^-15 of it.
+const fn lacking(change: f64) -> f64 {
+    let power = power(change);
+    part(15) * if power > change { power / 2.0 } else { power }
+}
+
+/// How far varyings that are divided at each pixel are off: their two planes beside the largest `q`, which is 2^30 at least, by
+/// 2^14.8 each in the exact tier and 2^14 elsewhere; and the reciprocal, which begins within 2^-15 and is followed within `x^3`
+/// where `q` changes by `x`, up to 5/128. By edge functions, where those have no planes, see `interpolation.rs`.
 const fn divided(scene: &Scene, exact: bool, change: f64) -> f64 {
     let distance = scene.far as f64 / scene.near as f64;
-    // 2^e of `interpolation/quotient.rs`, and what both planes are off beside the largest `q`, which is 2^30 at least.
-    let unit = power(change).max(2048.0);
     let planes = if exact { part(14) } else { part(15) };
-    let planes = unit * (planes * ratio(scene).min(16.0) + part(15));
-    // By edge functions, where those have no planes.
-    let edges = change * part(24) * distance;
-    planes.max(edges) + 0.5
+    let planes = unit(scene, change) * planes * ratio(scene).min(16.0);
+    let step = (scene.tilt as f64).min(5.0 / 128.0);
+    let reciprocal = change * (step * step * step).max(part(15));
+    let edges = change * part(23) * distance;
+    planes.max(edges) + reciprocal + lacking(change) + 0.5
 }
 
 /// A varying that changes by at most so many raw steps, in those; a straight line may be off by so many, and takes so many for
@@ -190,6 +208,10 @@ const fn varying(scene: &Scene, exact: bool, change: f64, knobs: Varied, packed:
     let [tolerance, word] =
         if knobs.varying_bits == 16 { packed } else { [128.0, plane(scene) + 0.5] };
     match knobs.every {
+        // Rounded in its unit, and off by its plane.
+        0 if exact => {
+            change * bend(ratio(scene)) + unit(scene, change) * (part(15) + part(16)) + 1.0
+        }
         0 => change * bend(ratio(scene)) + word,
         1 => divided(scene, exact, change),
         _ => straight(scene, change, tolerance) + word,
@@ -216,7 +238,7 @@ pub(super) const fn texels(scene: &Scene, exact: bool, knobs: Varied) -> f64 {
 pub(super) const fn color_steps(scene: &Scene, exact: bool, knobs: Varied) -> f64 {
     // Of a lane: 1/32 is cut, and 23 steps are rounded to 1/64.
     let lane = (1.0 / 32.0 + 23.0 / 64.0) * UNIT / GREEN;
-    let packed = [512.0, if exact { 0.0 } else { lane }];
+    let packed = [512.0, lane + 1.0];
     let mut off = varying(scene, exact, UNIT, knobs, packed);
     let tolerance = if knobs.varying_bits == 16 { 512.0 } else { 128.0 };
     if knobs.every > 1 && bends(scene, UNIT, tolerance) {

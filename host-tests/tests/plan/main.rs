@@ -113,6 +113,14 @@ scenes! {
         .within_texels(0.5)
         .within_color_steps(0.6)
         .within_depth_steps(0.1);
+    /// Linear on the exact tier's grid, with a texture that repeats often.
+    still, Still = Scene::new(128, 64)
+        .range(0.75, 1.25)
+        .model(0.25, 2.0)
+        .triangle(0.0, 0.0)
+        .texture(128, 64.0)
+        .colors()
+        .within_pixels(0.004);
     /// Straight pieces in whole words.
     pieces, Pieces = Scene::new(160, 128)
         .range(1.0, 4.0)
