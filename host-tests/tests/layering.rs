@@ -47,9 +47,11 @@ fn module(path: &Path, src: &Path) -> String {
     first.as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned()
 }
 
-/// The modules that code names as `crate::module`, outside of comments and tests.
+/// The modules that code names as `crate::module`, outside of comments and tests. What a macro names is for the crates that use
+/// it.
 fn names(code: &str) -> Vec<String> {
     let code = code.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+    let code = code.replace("$crate::", "");
     code.lines()
         .filter(|line| !line.trim_start().starts_with("//"))
         .flat_map(|line| line.split("crate::").skip(1))
