@@ -24,7 +24,7 @@ pub struct Scene {
     pub width: u32,
     /// Its height.
     pub height: u32,
-    /// The least `w` of a vertex: the hither distance.
+    /// The least `w` of a vertex: the hither distance, or a little beyond it, as a transform rounds.
     pub near: f32,
     /// The largest `w` of a vertex, below 32768.
     pub far: f32,

@@ -2,7 +2,7 @@
 //! the four units, by drawing with the library through the planned preset.
 //!
 //! Random restarts from seeds that are known to hurt, and hill climbing by a coordinate at a time. The numbers are the same
-//! in every run.
+//! in every run; with `HITHER_SEED=1` and so on it searches elsewhere, and with `HITHER_SHOW=1` it shows the triangles that it finds.
 
 mod climb;
 mod position;
@@ -121,6 +121,14 @@ scenes! {
         .texture(128, 64.0)
         .colors()
         .within_pixels(0.004);
+    /// Depths of 32 bits of projected triangles.
+    shelf, Shelf = Scene::new(240, 240)
+        .range(1.0, 32.0)
+        .model(1.0, 2.0)
+        .triangle(f32::INFINITY, 0.001)
+        .texture(256, 0.5)
+        .within_texels(1.5)
+        .within_depth_steps(0.05);
     /// Straight pieces in whole words.
     pieces, Pieces = Scene::new(160, 128)
         .range(1.0, 4.0)

@@ -78,7 +78,7 @@ where
                 let off = off::<P>(corners, scene, unit, &mut depths)?;
                 if off > *largest {
                     *largest = off;
-                    if std::env::var("SHOW").is_ok() {
+                    if std::env::var("HITHER_SHOW").is_ok() {
                         println!("{unit:?} {off:.4}: {corners:?}");
                     }
                 }
@@ -92,6 +92,9 @@ where
 fn seed(scene: &Scene, rng: &mut Rng, i: u32) -> [Corner; 3] {
     if i % 3 == 0 {
         return along_a_row(scene, rng);
+    }
+    if i % 6 == 5 {
+        return along_a_column(scene, rng);
     }
     let (width, height) = (f64::from(scene.width), f64::from(scene.height));
     let middle = [rng.between(0.0, width), rng.between(0.0, height)];
@@ -177,6 +180,27 @@ fn along_a_row(scene: &Scene, rng: &mut Rng) -> [Corner; 3] {
     if along.clamp(0.0, 1.0) == along {
         corners[2].at[1] += height;
     }
+    corners
+}
+
+/// A thin triangle from the top to the bottom of the screen, up to 16 times as far away at its other end: the most that has
+/// planes.
+fn along_a_column(scene: &Scene, rng: &mut Rng) -> [Corner; 3] {
+    let near = f64::from(scene.near);
+    let far = f64::from(scene.far).min(near + f64::from(scene.deep)).min(15.9 * near);
+    let (width, height) = (f64::from(scene.width), f64::from(scene.height));
+    let column = rng.between(0.1, 0.8) * width;
+    let thin = height * 2f64.powf(-rng.between(2.0, 9.0));
+    let lean = rng.between(0.0, 0.1) * width;
+    let repeats = f64::from(scene.repeats);
+    let (down, up) = if rng.once_in(2) { (0.0, 1.0) } else { (1.0, 0.0) };
+    let ends = [(0.0, 0.0), (1.0, 0.0), (rng.between(0.5, 1.0), thin)];
+    let mut corners = ends.map(|(part, aside)| {
+        let w = if part > 0.4 { far } else { near };
+        let at = [column + lean * part + aside, (down + (up - down) * part) * (height - 1.0) + 0.5];
+        Corner { at, w, depth: part, uv: [repeats * part; 2], color: [part; 3] }
+    });
+    corners.rotate_left(rng.below(3) as usize);
     corners
 }
 
