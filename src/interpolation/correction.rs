@@ -59,7 +59,8 @@ pub struct Affine;
 /// With [`PerspectiveEvery<N>`] a straight line over the whole triangle may be as far off as the fragment allows
 /// ([`Fragment::TOLERANCE`](crate::Fragment::TOLERANCE)): half a step of green more. Texture coordinates with `N` of 8 or more: where `1 / w` changes by
 /// at most half of itself along 32 pixels, those are divided for once, and the line bends every 8, which is about as near as
-/// straight lines of 8; elsewhere lines are straight and 8 long, for an `N` above as well.
+/// straight lines of 8; elsewhere lines are straight and 8 long, for an `N` above as well. Triangles whose length is some hundred times
+/// their width go in straight lines of `N`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Packed<C>(pub C);
 

@@ -243,7 +243,9 @@ pub(super) const fn color_steps(scene: &Scene, exact: bool, knobs: Varied) -> f6
     let mut off = varying(scene, exact, UNIT, knobs, packed);
     let tolerance = if knobs.varying_bits == 16 { 512.0 } else { 128.0 };
     if knobs.every > 1 && bends(scene, UNIT, tolerance) {
-        off = off.max(pieces(scene, UNIT, knobs) + 1.0);
+        // A lane of a piece is 1/32 too small, and as much at each of its pixels.
+        let cut = if knobs.varying_bits == 16 { knobs.every as f64 / 32.0 } else { 0.0 };
+        off = off.max(pieces(scene, UNIT, knobs) + 1.0 + cut * UNIT / GREEN);
     }
     0.5 + off * GREEN / UNIT
 }
