@@ -1,10 +1,12 @@
 //! What a firmware can write: types it can name, keep in a static, send, and take apart again.
 
 use hither::{
-    Affine, Cull, DepthBuffer, DepthFrame, DisplayFrame, Exact, Frame, Framebuffer, Hither, I16F16,
-    NoDepth, PerspectiveEvery, Quick, Rgb565, Rgb565Be, Target, Vertex,
+    Affine, Balance, Correction, Cull, DepthBuffer, DepthFrame, DisplayFrame, DividedBy, Exact,
+    Fidelity, Frame, Framebuffer, Hither, I16F16, Newton, NoDepth, NoHither, Packed, Perspective,
+    PerspectiveEvery, Quick, Rgb565, Rgb565Be, Table, Target, Vertex, Wide, Width,
 };
 use static_cell::StaticCell;
+use std::any::TypeId;
 
 const SIDE: u32 = 16;
 const PIXELS: usize = (SIDE * SIDE) as usize;
@@ -12,7 +14,7 @@ const PIXELS: usize = (SIDE * SIDE) as usize;
 /// A firmware's state: the frame is a field.
 struct App {
     frame: DepthFrame<'static>,
-    cache: [Vertex<Exact, 3>; 8],
+    cache: [Vertex<Quick<8>, 3>; 8],
     turns: u16,
 }
 
@@ -38,16 +40,33 @@ fn a_frame_lives_in_a_static_and_can_be_sent() {
 }
 
 #[test]
-fn new_is_the_exact_tier_and_another_is_one_call() {
+fn new_is_the_preset_for_most_scenes_and_another_is_one_call() {
     let mut words = [0; PIXELS];
     let frame = Frame::new(Framebuffer::try_new(&mut words, SIDE, SIDE).unwrap()).unwrap();
     let frame: DisplayFrame<'_> = frame;
+    let frame: Frame<_, NoDepth, NoHither, Quick<8>, Packed<PerspectiveEvery<8>>> = frame;
+    let frame: Frame<_, NoDepth, NoHither, Exact, Perspective> = frame.with_preset(Fidelity);
+    let frame: DisplayFrame<'_> = frame.with_preset(Balance);
     let quick = frame.with_tier(Quick::<4>).with_correction(PerspectiveEvery::<16>);
     let quick: Frame<Framebuffer<'_, Rgb565Be>, NoDepth, _, Quick<4>, PerspectiveEvery<16>> = quick;
     let hither = Hither::new(I16F16::ONE).unwrap();
     let affine: Frame<_, NoDepth, Hither, Quick<8>, Affine> =
         quick.with_hither(hither).with_tier(Quick::<8>).with_correction(Affine);
     let _ = affine.with_cull(Cull::Back);
+}
+
+/// What a correction says of itself.
+fn knobs<C: Correction<Reciprocal: 'static>>() -> (i32, bool, Width, TypeId) {
+    (C::EVERY, C::AFFINE, C::WIDTH, TypeId::of::<C::Reciprocal>())
+}
+
+#[test]
+fn knobs_wrap_each_other_in_any_order() {
+    let outer = knobs::<Packed<DividedBy<PerspectiveEvery<16>, Table>>>();
+    assert_eq!(outer, knobs::<DividedBy<Packed<PerspectiveEvery<16>>, Table>>());
+    assert_eq!(outer, (16, false, Width::Packed, TypeId::of::<Table>()));
+    assert_eq!(knobs::<Wide<Packed<Affine>>>().2, Width::Long);
+    assert_eq!(knobs::<Packed<Affine>>(), (1, true, Width::Packed, TypeId::of::<Newton<2>>()));
 }
 
 #[test]
