@@ -84,8 +84,8 @@ impl<F: PixelFormat<Color = Rgb888>> Fragment<Rgb565, 2> for Dithered<Textured<'
 mod tests {
     use super::*;
     use crate::{
-        Affine, ClipVertex, Correction, Exact, Frame, Framebuffer, Hither, Packed, Perspective,
-        PerspectiveEvery, Quick, Tier,
+        Affine, ClipVertex, Correction, DividedBy, Exact, Frame, Framebuffer, Hither, Packed,
+        Perspective, PerspectiveEvery, Quick, Table, Tier,
     };
 
     /// The mean over each 4 x 4 pixels of a quad of one colour.
@@ -111,6 +111,36 @@ mod tests {
             }
         }
         means
+    }
+
+    /// From bright to dark and back in one grey, with a short reciprocal: no channel passes an end and goes on at the other.
+    #[test]
+    fn channels_at_their_ends_stay_there() {
+        for i in 0..600 {
+            let mut words = [0; 32 * 32];
+            let buffer = Framebuffer::<Rgb565>::try_new(&mut words, 32, 32).unwrap();
+            let frame = Frame::new(buffer).unwrap().with_hither(Hither::new(I16F16::ONE).unwrap());
+            let mut frame = frame.with_tier(Exact).with_correction(DividedBy(Perspective, Table));
+            let corner = |x: i32, y: i32, w: i32, u: i32| {
+                let at = |v: i32| I16F16::from_bits((v * w) << 10);
+                let w = I16F16::from_num(w);
+                (ClipVertex::new(at(x), at(y), I16F16::ZERO, w), [I16F16::from_bits(u); 3])
+            };
+            let (right, left) = if i % 2 == 0 { (1 << 16, 0) } else { (0, 1 << 16) };
+            let (x, w) = (i % 37 - 60, 2 + i % 11);
+            let corners = [
+                corner(60, -60, 1 + i % 13, right),
+                corner(x, 60 - i % 7, w, left),
+                corner(x, -60, w + i % 3, left),
+            ];
+            frame.draw_triangle(corners, &Dithered(Gouraud));
+            for word in words {
+                let color = Rgb565(word);
+                let level = [color.r(), color.g() / 2, color.b()].map(i32::from);
+                let spread = level.iter().max().unwrap() - level.iter().min().unwrap();
+                assert!(spread <= 1, "{color:?} in {i}");
+            }
+        }
     }
 
     #[test]

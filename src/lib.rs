@@ -20,6 +20,8 @@
 //! correction of varyings ([`Perspective`], [`PerspectiveEvery`], [`Affine`]). Presets set the last two: [`Speed`],
 //! [`Balance`], which is what a frame begins with, and [`Fidelity`].
 //!
+//! [`plan!`] picks them from a [`Scene`]'s bounds and how far off it may be, at compile time.
+//!
 //! # A mesh
 //!
 //! ```

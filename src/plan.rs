@@ -1,4 +1,4 @@
-//! A planner: from the bounds of a scene and an error budget to the cheapest knobs that keep it, in constants.
+//! A planner: from the bounds of a scene and an error budget to cheap knobs that keep it, in constants.
 //!
 //! Bits that are proved, of numbers with their sign where they have one:
 //!
@@ -8,11 +8,11 @@
 //! | an edge function over the guard band, `2^(11 + S)` subpixels wide | `2 (11 + S) + 2`, of 64 |
 //! | the same in the exact tier | 62, of 64 |
 //! | a texture coordinate, raw | 24 |
-//! | the place of a texel | 24, of 32 |
-//! | a running depth: 16 bits and those of the steps over the viewport's columns and rows | 26, of 32 |
+//! | the place of a texel | 26, of 32 |
+//! | a running depth: 16 bits and those of the steps over the viewport's columns and rows | 27, of 32 |
 //!
-//! What is chosen, cheapest first (the command `trade` measures it): [`POINTS`] and [`VARIED`]. The first that keeps the budget
-//! is taken, so that a larger budget never takes one that costs more.
+//! What is chosen, in an order of cost: [`POINTS`] and [`VARIED`]. The first that keeps the budget is taken. It is the cheapest
+//! for most scenes, not for all: a knob costs more or less by what is drawn and on which chip, as the command `trade` shows.
 
 mod error;
 mod knobs;
@@ -201,7 +201,7 @@ const fn within(off: f64, budget: f32) -> bool {
 #[expect(clippy::cast_possible_truncation, reason = "to the next above")]
 const fn promised(off: f64) -> f32 {
     let near = off as f32;
-    if off > 0.0 { f32::from_bits(near.to_bits() + 1) } else { near }
+    if off > 0.0 && near.is_finite() { f32::from_bits(near.to_bits() + 1) } else { near }
 }
 
 /// The least `w` but 0, 2^-16.

@@ -31,7 +31,9 @@ where
         S: Side,
         F: Fragment<C::Color, N>,
     {
+        // A short reciprocal is off by more than dithered channels have room for.
         let channels = F::LANES
+            .filter(|_| !(F::DITHERED && I::Reciprocal::IS_SHORT))
             .and_then(|lanes| Quotients::<I::Reciprocal, N>::channels(slopes, vertices, lanes));
         if let Some(channels) = channels {
             self.draw_edges::<S, _, _, N>(shape, &EachChannel(&channels), fragment);

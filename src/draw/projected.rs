@@ -106,6 +106,7 @@ where
     {
         let hither = self.range.hither()?;
         let q = nearness_of(vertices, hither);
+        const { assert!(I::EVERY >= 1 && I::EVERY <= 64, "a correction divides every 1 to 64 pixels") }
         let packed = I::WIDTH == Width::Packed;
         let tolerance = match I::EVERY {
             1 => 0,

@@ -53,7 +53,7 @@ pub struct PerspectiveEvery<const N: u8>;
 pub struct Affine;
 
 /// For speed, in the quick tiers: what a pixel is made of is stepped as one word where it fits. Colours of RGB565 take 10 or 11
-/// bits each and are within 0.9 steps of the straight line they follow (in pieces of 32 within 1 1/2, of 64 within 2 1/2);
+/// bits each and are within 0.9 steps of the straight line they follow, in pieces of N within 1/2 + N / 32;
 /// texture coordinates take 16 bits, to 2^-16. What is divided at each pixel is not packed.
 ///
 /// With [`PerspectiveEvery<N>`] a straight line over the whole triangle may be as far off as the fragment allows

@@ -23,6 +23,10 @@ pub trait Reciprocal: Copy + Default + core::fmt::Debug {
     /// `2^63 / m` for `m` in `[2^31, 2^32)`; at most `2^32 - 1`.
     fn of(m: u32) -> u32;
 
+    /// Whether a quotient may be off by more than 1/32 of a step of RGB565.
+    #[doc(hidden)]
+    const IS_SHORT: bool = false;
+
     /// `2^47 / m`, 16 bits, never above it.
     #[doc(hidden)]
     fn below(m: u32) -> i32;
@@ -47,6 +51,8 @@ pub struct Division;
 pub struct Float;
 
 impl Reciprocal for Table {
+    const IS_SHORT: bool = true;
+
     #[inline]
     fn of(m: u32) -> u32 {
         let seed = reciprocal_seed(m);

@@ -22,8 +22,8 @@
 //!
 //! **Colours** are such varyings with `d = 1`, in 63 steps of green, with half a step that rounding takes.
 //!
-//! **Depth**: within a step of 16 bits (`depth/plane.rs`). With 32 bits a step a pixel is rounded to half a running unit, 2^-17
-//! of those steps, along a row, and the row's start is within 2^-12 of one.
+//! **Depth**: within 1.07 steps of 16 bits (`depth/plane.rs`). With 32 bits three terms are each rounded to half a running unit,
+//! 2^-17 of those steps, a pixel along a row, and the row's start, with the rounding of its terms, is within 2^-11 of one.
 
 #![expect(clippy::float_arithmetic, reason = "evaluated at compile time")]
 #![expect(clippy::cast_precision_loss, reason = "powers of two")]
@@ -253,7 +253,7 @@ pub(super) const fn color_steps(scene: &Scene, exact: bool, knobs: Varied) -> f6
 /// Of a depth, in steps of 16 bits.
 pub(super) const fn depth_steps(scene: &Scene, depth_bits: u32) -> f64 {
     match depth_bits {
-        16 => 1.0,
+        16 => 1.07,
         _ => 1.5 * scene.width as f64 * part(16) + part(11),
     }
 }

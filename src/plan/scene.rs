@@ -76,7 +76,7 @@ impl Scene {
             pixels: 0.25,
             texels: 1.0,
             color_steps: 1.5,
-            depth_steps: 1.0,
+            depth_steps: 1.1,
         }
     }
 
@@ -99,7 +99,7 @@ impl Scene {
     }
 
     /// [`Textures`](Self::texture) of a side in texels, and their [`repeats`](Self::repeats), with coordinates from `-repeats`
-    /// to `repeats`.
+    /// to `repeats`: where they are others, [`coordinates`](Self::coordinates) comes after this.
     #[must_use]
     pub const fn texture(self, side: u32, repeats: f32) -> Self {
         Self { texture: side, repeats, coordinate: repeats, ..self }

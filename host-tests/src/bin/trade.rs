@@ -82,7 +82,8 @@ fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
 
 /// Measures what is asked for.
 fn trade(asked: &Asked) -> Result<(), String> {
-    let bar = progress(64 + 5 * asked.machines.len() as u64);
+    let (points, each) = if asked.quick { (22, 4) } else { (52, 5) };
+    let bar = progress(1 + points + each * asked.machines.len() as u64);
     bar.set_message("host: the scenes in exact numbers");
     let scenes: Vec<Ideal> = asked.scenes.iter().map(|&scene| Ideal::new(scene)).collect();
     bar.inc(1);

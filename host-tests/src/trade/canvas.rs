@@ -45,7 +45,7 @@ impl Fragment<[u32; 2], 2> for Asking {
     }
 }
 
-/// What a pixel holds that nothing was drawn to; and that no triangle of the scenes has.
+/// What a pixel holds that nothing was drawn to. Where a colour is the same, it is not compared.
 pub(super) trait Blank: PixelFormat {
     /// The word.
     const BLANK: Self::Word;

@@ -42,7 +42,8 @@ struct Group {
 const SAME: f64 = 0.01;
 
 /// The points that no other beats, from the cheapest to the dearest: none is at least as good in both and better in one. Points
-/// of one error whose costs are within [`SAME`] of the cheapest of them are at the same place, and do not beat each other. Those that lack the error, or a cost on this instruction set, do not take part.
+/// of one error whose costs are within a part in 100 of the cheapest of them are at the same place, and do not beat each other.
+/// Those that lack the error, or a cost on this instruction set, do not take part.
 #[must_use]
 pub fn pareto(points: &[Point], axis: Axis, isa: &str) -> Vec<usize> {
     let groups = groups(points, axis, isa);

@@ -208,7 +208,8 @@ fn interior(exact: &[i32], drawn: &[i32], sums: &mut Sums) {
             let mut around =
                 (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| y * width + x));
             if around.all(|place| exact[place] == here) {
-                let off = drawn[y * width + x] - here;
+                // Layers of backs are counted down.
+                let off = (drawn[y * width + x] - here) * if here < 0 { -1 } else { 1 };
                 sums.gaps += u64::from(off < 0);
                 sums.doubles += u64::from(off > 0);
             }

@@ -12,7 +12,7 @@ use crate::EVALUATIONS;
 use crate::Found;
 use crate::climb::{climb, seed_of_run};
 
-/// Half of a guard band is left to triangles.
+/// The guard band but for its last pixels to triangles.
 const REACH: f64 = 1000.0;
 
 /// Shows the fractions of texture coordinates, in a word where a texture would take one.
