@@ -134,7 +134,8 @@ const fn varied(every: u32, varying_bits: u32, newton_steps: u32) -> Varied {
 }
 
 impl Plan {
-    /// The cheapest knobs that keep a scene's budget. To be kept in a constant; [`plan!`](crate::plan) makes a preset of it.
+    /// The first knobs, in their order of cost, that keep a scene's budget. To be kept in a constant; [`plan!`](crate::plan) makes
+    /// a preset of it.
     ///
     /// # Panics
     ///

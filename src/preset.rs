@@ -12,7 +12,8 @@ use crate::vertex::{Exact, Quick};
 /// [`plan!`](crate::plan) makes one for a scene's bounds.
 ///
 /// Presets are [`Speed`], [`Balance`], [`Fidelity`], or one of your own.
-/// [`Frame::with_preset`](crate::Frame::with_preset) takes one: its tier and its correction. A depth buffer is of its [`Depth`](Self::Depth).
+/// [`Frame::with_preset`](crate::Frame::with_preset) takes one: its tier and its correction. A depth buffer is of its
+/// [`Depth`](Self::Depth).
 pub trait Preset: Copy + Default + core::fmt::Debug {
     /// What vertices are snapped to.
     type Tier: Tier;

@@ -78,6 +78,13 @@ pub fn power_of_two(exponent: i32) -> BigRational {
     }
 }
 
+/// Where a snapped vertex is on the screen, in pixels.
+#[must_use]
+pub fn on_screen(snapped: Snapped, viewport: Viewport) -> [f64; 2] {
+    let [x, y, w] = in_pixels(snapped, viewport).map(|v| v as f64);
+    [x / w, y / w]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

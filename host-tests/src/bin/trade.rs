@@ -10,7 +10,7 @@
 //! plot says something else; `--write` writes them anew.
 
 use hither_examples::picture::target_folder;
-use hither_scenes::trade::{Scene, more, quick};
+use hither_scenes::trade::{Knobs, Scene, Visitor, more, quick};
 use host_tests::cross::{MACHINES, Machine, root, toolchain};
 use host_tests::measure::command::{Documents, chosen, progress, tables};
 use host_tests::measure::size::flash_of_preset;
@@ -82,15 +82,19 @@ fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
 
 /// Measures what is asked for.
 fn trade(asked: &Asked) -> Result<(), String> {
-    let (points, each) = if asked.quick { (22, 4) } else { (52, 5) };
-    let bar = progress(1 + points + each * asked.machines.len() as u64);
+    let bar = progress(steps(asked));
     bar.set_message("host: the scenes in exact numbers");
     let scenes: Vec<Ideal> = asked.scenes.iter().map(|&scene| Ideal::new(scene)).collect();
     bar.inc(1);
     let (mut points, firmwares) = survey(&scenes, asked.quick, &bar);
+    let card = Ideal::new(Scene::Card);
+    let units = Units {
+        card_pixels: card.triangles.iter().map(|triangle| triangle.covered.len()).sum(),
+        torus_triangles: Ideal::new(Scene::Torus).triangles.len(),
+    };
     for machine in &asked.machines {
         bar.set_message(format!("{}: what the points cost", machine.isa));
-        costs(machine, &mut points, &firmwares, &bar)?;
+        costs(machine, &mut points, &firmwares, units, &bar)?;
         flash(machine, &mut points, &bar)?;
     }
     let points: Vec<Point> = points.into_iter().map(|(point, _)| point).collect();
@@ -150,6 +154,31 @@ fn write(path: &Path, text: &str) -> Result<(), String> {
     fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
+/// Counts points.
+#[derive(Default)]
+struct Tally {
+    points: u64,
+    presets: u64,
+}
+
+impl Visitor for Tally {
+    fn visit<K: Knobs>(&mut self) {
+        self.points += 1;
+        self.presets += u64::from(K::PRESET.is_some());
+    }
+}
+
+/// How many steps the bar has: the scenes, the points, and the firmwares of each machine.
+fn steps(asked: &Asked) -> u64 {
+    let (mut tally, mut firmwares) = (Tally::default(), 1);
+    quick(&mut tally);
+    if !asked.quick {
+        more(&mut tally);
+        firmwares += 1;
+    }
+    1 + tally.points + (firmwares + tally.presets) * asked.machines.len() as u64
+}
+
 type Surveyed = (Point, Vec<Sketch>);
 
 /// Draws the points on the host; and the firmwares that draw them.
@@ -172,13 +201,9 @@ fn costs(
     machine: &Machine,
     points: &mut [Surveyed],
     firmwares: &[Firmware],
+    units: Units,
     bar: &ProgressBar,
 ) -> Result<(), String> {
-    let card = Ideal::new(Scene::Card);
-    let units = Units {
-        card_pixels: card.triangles.iter().map(|triangle| triangle.covered.len()).sum(),
-        torus_triangles: Ideal::new(Scene::Torus).triangles.len(),
-    };
     let mut rest = points;
     for &firmware in firmwares {
         let counts: Vec<Count> = count(machine, firmware)?;

@@ -1,10 +1,10 @@
 //! How far off each workload's picture is, against references of its own: integers for coverage, `f64` for the rest.
 
 use super::torus;
+use crate::oracle::Viewport;
 use crate::record::{Mark, Record};
-use hither::{
-    Always, ClipVertex, Cull, DepthBuffer, Exact, Flat, Frame, Quick, Rgb565, Snapped, Vertex,
-};
+use crate::snapped::on_screen;
+use hither::{Always, ClipVertex, Cull, DepthBuffer, Exact, Flat, Frame, Quick, Rgb565, Vertex};
 use hither_scenes::torus as scene;
 use hither_scenes::workloads::{
     Buffers, CACHE, COLORS, COORDINATES, Corner, DEPTH_ONE, HITHER, PIXELS, Preset, SIDE, SNAPPED,
@@ -268,15 +268,7 @@ fn snap<T: Preset>() -> Deviation {
     let off = |(index, vertex): (usize, &ClipVertex)| {
         let snapped: Vertex<T> = frame.snap(vertex, []);
         let side = f64::from(SIDE);
-        let [x, y] = match snapped.snapped() {
-            Snapped::Homogeneous { point, .. } => {
-                let [x, y, w] = point.map(f64::from);
-                [(x / w + 1.0) / 2.0 * side, (1.0 - y / w) / 2.0 * side]
-            }
-            Snapped::Projected { point, subpixel_bits } => {
-                point.map(|v| f64::from(v) / f64::from(1 << subpixel_bits))
-            }
-        };
+        let [x, y] = on_screen(snapped.snapped(), Viewport::new(SIDE, SIDE));
         let [ideal_x, ideal_y] = torus::on_screen(index * (CACHE / SNAPPED), side);
         (x - ideal_x).abs().max((y - ideal_y).abs())
     };

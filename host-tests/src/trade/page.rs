@@ -211,13 +211,4 @@ mod tests {
         assert!(!outside.contains("http:") && !outside.contains("https:"));
         assert!(!text.contains("<link") && !text.contains(" src="));
     }
-
-    #[test]
-    #[ignore = "writes a page to look at: target/trade/made.html"]
-    fn a_page_to_look_at() {
-        let folder = crate::cross::root().join("target/trade");
-        std::fs::create_dir_all(&folder).expect("a folder");
-        let page = html(&made::points(40), &ISAS, "rustc 1.85.0, QEMU 7.2");
-        std::fs::write(folder.join("made.html"), page).expect("the page is written");
-    }
 }

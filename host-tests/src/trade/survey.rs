@@ -4,7 +4,9 @@ use super::canvas::{Asked, Asking, Blank, Canvas, Pixel, texels};
 use super::ideal::{Covered, Ideal, Triangle};
 use super::sums::{Sum, Sums, psnr};
 use super::{Picture, Point};
-use hither::{Rgb565, Snapped, Vertex};
+use crate::oracle::Viewport;
+use crate::snapped::on_screen;
+use hither::{Rgb565, Vertex};
 use hither_examples::rgb565;
 use hither_scenes::checksum::Checksum;
 use hither_scenes::texture::SIZE;
@@ -150,15 +152,7 @@ fn positions<T: hither::Tier>(ideal: &Ideal, vertices: &[Vertex<T, 2>], sums: &m
         if !(0.0..=width).contains(&x) || !(0.0..=height).contains(&y) {
             continue;
         }
-        let [got_x, got_y] = match vertex.snapped() {
-            Snapped::Homogeneous { point, .. } => {
-                let [x, y, w] = point.map(f64::from);
-                [(x / w + 1.0) / 2.0 * width, (1.0 - y / w) / 2.0 * height]
-            }
-            Snapped::Projected { point, subpixel_bits } => {
-                point.map(|v| f64::from(v) / f64::from(1 << subpixel_bits))
-            }
-        };
+        let [got_x, got_y] = on_screen(vertex.snapped(), Viewport::new(WIDTH, HEIGHT));
         sums.position.add((got_x - x).abs().max((got_y - y).abs()));
     }
 }
