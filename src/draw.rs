@@ -7,12 +7,16 @@ mod frame;
 mod homogeneous;
 mod lanes;
 mod projected;
+#[cfg(feature = "heapless")]
+mod reach;
 mod shade;
 mod shape;
 mod small;
 mod tiny;
 
 pub use frame::{DepthFrame, DepthSize, DisplayFrame, Frame};
+#[cfg(feature = "heapless")]
+pub(crate) use reach::RowRange;
 
 use crate::clip::Hither;
 use crate::depth::{DepthPlane, DepthTest};
@@ -459,22 +463,41 @@ where
     {
         self.transform(mesh, stage, 0, cache);
         let mut counts = Counts::default();
-        for (face, indices) in mesh.triangles().iter().enumerate() {
-            let [i, j, k] = indices.map(|index| cache.get(usize::from(index)));
-            let fragment = fragment.for_face(face);
-            counts.add(match (i, j, k) {
-                (Some(a), Some(b), Some(c)) => self.draw_snapped([a, b, c], &fragment),
-                corners => self.draw_uncached(mesh, stage, *indices, corners.into(), &fragment),
-            });
+        for face in mesh.triangles().iter().enumerate() {
+            counts.add(self.draw_face(mesh, stage, face, fragment, cache));
         }
         counts
+    }
+
+    /// Draws a face of a mesh, from its number and indices.
+    #[inline(always)]
+    pub(crate) fn draw_face<Q, A, S, F, const N: usize>(
+        &mut self,
+        mesh: &Mesh<'_, Q, A>,
+        stage: &S,
+        (face, indices): (usize, &[u16; 3]),
+        fragment: &F,
+        cache: &[Vertex<T, N, P>],
+    ) -> Outcome
+    where
+        Q: StoredPosition,
+        S: VertexStage<A, N>,
+        F: Fragment<C::Color, N>,
+        W: Interpolates<N>,
+    {
+        let [i, j, k] = indices.map(|index| cache.get(usize::from(index)));
+        let fragment = fragment.for_face(face);
+        match (i, j, k) {
+            (Some(a), Some(b), Some(c)) => self.draw_snapped([a, b, c], &fragment),
+            corners => self.draw_uncached(mesh, stage, *indices, corners.into(), &fragment),
+        }
     }
 
     /// A mesh's vertices from `first` on, transformed and snapped, as many as there are entries for.
     ///
     /// Not inlined, so that there is one copy of the vertex stage in a firmware.
     #[inline(never)]
-    fn transform<Q, A, S, const N: usize>(
+    pub(crate) fn transform<Q, A, S, const N: usize>(
         &self,
         mesh: &Mesh<'_, Q, A>,
         stage: &S,
@@ -508,6 +531,24 @@ where
         F: Fragment<C::Color, N>,
         W: Interpolates<N>,
     {
+        let [a, b, c] = &self.corners(mesh, stage, indices, cached);
+        self.draw_snapped([a, b, c], fragment)
+    }
+
+    /// The corners of a triangle of a mesh: those that are in the cache, and the others transformed.
+    #[inline]
+    pub(crate) fn corners<Q, A, S, const N: usize>(
+        &self,
+        mesh: &Mesh<'_, Q, A>,
+        stage: &S,
+        indices: [u16; 3],
+        cached: [Option<&Vertex<T, N, P>>; 3],
+    ) -> [Vertex<T, N, P>; 3]
+    where
+        Q: StoredPosition,
+        S: VertexStage<A, N>,
+        W: Interpolates<N>,
+    {
         let mut corners = [Vertex::EMPTY; 3];
         for ((corner, index), cached) in corners.iter_mut().zip(indices).zip(cached) {
             match cached {
@@ -515,8 +556,7 @@ where
                 None => self.transform(mesh, stage, usize::from(index), from_mut(corner)),
             }
         }
-        let [a, b, c] = &corners;
-        self.draw_snapped([a, b, c], fragment)
+        corners
     }
 }
 

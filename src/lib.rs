@@ -62,6 +62,7 @@
 //! # Features
 //!
 //! - `embedded-graphics`: colours convert to and from embedded-graphics' own.
+//! - `heapless`: exact bins, for frames that are drawn in bands.
 //! - `micromath`: matrices from `f32` angles and numbers.
 //! - `defmt`: `defmt::Format` on outcomes, counts, colours and errors.
 //!
@@ -87,6 +88,8 @@
 extern crate std;
 
 mod band;
+#[cfg(feature = "heapless")]
+mod bin;
 mod buffer;
 mod clip;
 mod color;
@@ -110,6 +113,8 @@ mod traversal;
 mod vertex;
 
 pub use band::{Band, Bands, FrameError, SwapChain, Transfer};
+#[cfg(feature = "heapless")]
+pub use bin::Bins;
 pub use buffer::BufferSize;
 pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 #[doc(hidden)]

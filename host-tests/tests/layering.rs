@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 21] = [
+const ORDER: [&str; 22] = [
     "math",
     "color",
     "buffer",
@@ -24,6 +24,7 @@ const ORDER: [&str; 21] = [
     "preset",
     "plan",
     "draw",
+    "bin",
     "band",
     "eg",
 ];

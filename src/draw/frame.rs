@@ -249,6 +249,13 @@ impl<C: Target, D: DepthTest, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
         self.window
     }
 
+    /// The rows of the viewport that the target holds: from the first to before the second.
+    #[cfg(feature = "heapless")]
+    pub(crate) fn rows(&mut self) -> (u32, u32) {
+        let Rect { y0, y1, .. } = self.known_window();
+        (unsigned(y0.max(0)), unsigned(y1.max(0)))
+    }
+
     /// Not inlined: it is done once a target.
     #[inline(never)]
     fn find_window(&mut self) {
