@@ -1,6 +1,7 @@
 //! Bands sent by DMA.
 
 use crate::panel::{PanelError, open_window};
+use core::task::{Context, Poll};
 use embedded_dma::ReadBuffer;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::spi::SpiBus;
@@ -81,7 +82,22 @@ where
         Ok(())
     }
 
-    fn finish(&mut self) -> Result<Option<Words>, Self::Error> {
+    /// Waits: there is nothing else to do.
+    fn poll_finish(&mut self, _: &mut Context<'_>) -> Poll<Result<Option<Words>, Self::Error>> {
+        Poll::Ready(self.finish())
+    }
+}
+
+impl<C, S, CS, DC, P> DmaPanel<C, S, CS, DC>
+where
+    C: SingleChannel,
+    S: SpiBus + WriteTarget<TransmittedWord = u8>,
+    CS: OutputPin<Error = P>,
+    DC: OutputPin<Error = P>,
+    P: embedded_hal::digital::Error,
+{
+    /// Waits until the panel has the last byte, and gives the buffer back.
+    fn finish(&mut self) -> Result<Option<Words>, PanelError<S::Error, P>> {
         if let Some(transfer) = self.in_flight.take() {
             let (channel, sent, mut spi) = transfer.wait();
             // DMA is done when the last bytes are in SPI's queue: chip select has to wait until they

@@ -1,5 +1,6 @@
 //! A transfer that blocks: for drivers without DMA.
 
+use core::task::{Context, Poll};
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{Point, Size};
 use embedded_graphics_core::pixelcolor;
@@ -41,7 +42,7 @@ where
         self.display.fill_contiguous(&area, words.iter().map(|&word| Rgb565(word).into()))
     }
 
-    fn finish(&mut self) -> Result<Option<B>, D::Error> {
-        Ok(self.sent.take())
+    fn poll_finish(&mut self, _: &mut Context<'_>) -> Poll<Result<Option<B>, D::Error>> {
+        Poll::Ready(Ok(self.sent.take()))
     }
 }

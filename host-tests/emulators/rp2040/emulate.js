@@ -61,7 +61,12 @@ function options() {
 function boot(elf) {
   const chip = new RP2040();
   const quiet = () => {};
-  chip.logger = { debug: quiet, info: quiet, warn: quiet, error: quiet };
+  // The emulator does nothing for SEV but to say so. A core that sends an event also registers it itself, which is how an
+  // executor that has just been woken does not fall asleep.
+  const info = (_, what) => {
+    chip.core.eventRegistered ||= what === 'SEV';
+  };
+  chip.logger = { debug: quiet, info, warn: quiet, error: quiet };
   load(elf, chip.flash);
   chip.core.SP = BOOT_STACK;
   // Tells boot2 to go on to the program's vectors.

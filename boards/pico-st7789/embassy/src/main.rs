@@ -4,18 +4,20 @@
 
 mod panel;
 
+use core::task::{Context, Poll, ready};
 use defmt_rtt as _;
 use embassy_executor::Spawner;
-use embassy_futures::join::join;
 use embassy_rp::gpio::{Level, Output};
 use embassy_rp::peripherals::DMA_CH0;
 use embassy_rp::spi::{Config, Spi};
 use embassy_rp::{bind_interrupts, dma};
+use embassy_sync::blocking_mutex::raw::ThreadModeRawMutex;
+use embassy_sync::channel::{Channel, TrySendError};
 use embassy_time::{Delay, Instant};
-use hither::{Band, PerspectiveEvery, Quick, Rgb565Be, Vertex, Viewport};
+use hither::{Band, PerspectiveEvery, Quick, Rgb565Be, SwapChain, Transfer, Vertex, Viewport};
 use hither_scenes::SceneError;
 use hither_scenes::spinning_teapot::{Drawn, Moment, VERTEX_COUNT, draw_onto};
-use panel::{HEIGHT, Panel, WIDTH};
+use panel::{HEIGHT, Panel, PanelError, WIDTH};
 use panic_probe as _;
 use static_cell::ConstStaticCell;
 
@@ -43,6 +45,15 @@ bind_interrupts!(struct Interrupts {
     DMA_IRQ_0 => dma::InterruptHandler<DMA_CH0>;
 });
 
+/// The words of a band.
+type Words = &'static mut [u16];
+
+/// Bands on their way to the task that has the panel.
+static TO_PANEL: Channel<ThreadModeRawMutex, (Band, Words), 1> = Channel::new();
+
+/// Their words on the way back.
+static FROM_PANEL: Channel<ThreadModeRawMutex, (Words, Result<(), PanelError>), 1> = Channel::new();
+
 /// What drawing needs besides the words of a band.
 struct Scene {
     depth: &'static mut [u16],
@@ -59,43 +70,51 @@ impl Scene {
     }
 }
 
-/// Draws a picture band by band, and sends each while the next is drawn.
-///
-/// A buffer is lent to the bus as long as it is sent, and the other one to the scene as long as it
-/// is drawn into; they change places when both are done.
-async fn frame(
-    panel: &mut Panel,
-    scene: &mut Scene,
-    [front, back]: &mut [&'static mut [u16]; 2],
-    picture: &Viewport,
-    number: u32,
-) {
-    let mut drawn: Option<Band> = None;
-    let bands = picture.bands(BAND).expect("a buffer holds rows");
-    for next in bands.map(Some).chain([None]) {
-        let send = async {
-            if let Some(band) = &drawn
-                && let Err(error) = panel.send(band, front).await
-            {
-                defmt::error!("frame {}: {}", number, defmt::Debug2Format(&error));
-            }
-        };
-        // Sending is begun first, and goes on by itself while this draws.
-        let draw = async {
-            if let Some(band) = &next
-                && let Err(error) = scene.draw(band, back, number)
-            {
-                defmt::error!("frame {}: {}", number, defmt::Display2Format(&error));
-            }
-        };
-        join(send, draw).await;
-        core::mem::swap(front, back);
-        drawn = next;
+/// Sends bands as they come, and gives their words back.
+#[embassy_executor::task]
+async fn send(mut panel: Panel) -> ! {
+    loop {
+        let (band, words) = TO_PANEL.receive().await;
+        let sent = panel.send(&band, words).await;
+        FROM_PANEL.send((words, sent)).await;
+    }
+}
+
+/// Sends bands through the task that has the panel: whoever draws may stop waiting for it, and it goes on.
+#[derive(Default)]
+struct Sender {
+    in_flight: bool,
+    /// Words of a band that could not be sent.
+    returned: Option<Words>,
+}
+
+impl Transfer for Sender {
+    type Word = u16;
+    type Buffer = Words;
+    type Error = PanelError;
+
+    fn start(&mut self, band: &Band, words: Words) -> Result<(), PanelError> {
+        match TO_PANEL.try_send((*band, words)) {
+            Ok(()) => self.in_flight = true,
+            // Never, as one at most is in flight.
+            Err(TrySendError::Full((_, words))) => self.returned = Some(words),
+        }
+        Ok(())
+    }
+
+    fn poll_finish(&mut self, context: &mut Context<'_>) -> Poll<Result<Option<Words>, PanelError>> {
+        if self.in_flight {
+            let (words, sent) = ready!(FROM_PANEL.poll_receive(context));
+            self.in_flight = false;
+            self.returned = Some(words);
+            sent?;
+        }
+        Poll::Ready(Ok(self.returned.take()))
     }
 }
 
 #[embassy_executor::main]
-async fn main(_spawner: Spawner) {
+async fn main(spawner: Spawner) {
     let chip = embassy_rp::init(embassy_rp::config::Config::default());
     let mut config = Config::default();
     config.frequency = SPI_HZ;
@@ -107,16 +126,25 @@ async fn main(_spawner: Spawner) {
     // High while a frame is drawn and sent: for an oscilloscope, and for the emulator.
     let mut marker = Output::new(chip.PIN_2, Level::Low);
 
-    let mut panel = Panel::new(spi, cs, dc, reset, &mut Delay)
+    let panel = Panel::new(spi, cs, dc, reset, &mut Delay)
         .expect("pins do not fail, and the size is the panel's");
     let mut scene = Scene { depth: DEPTH.take(), cache: CACHE.take() };
-    let mut buffers: [&'static mut [u16]; 2] = [FIRST.take(), SECOND.take()];
+    spawner.spawn(send(panel).expect("there is one"));
+    let (first, second): (Words, Words) = (FIRST.take(), SECOND.take());
+    let mut chain = SwapChain::new(Sender::default(), first, Some(second));
     let picture = Viewport::new(WIDTH.into(), HEIGHT.into()).expect("at most 512 x 512");
     let mut number = 0;
     loop {
         let start = Instant::now();
         marker.set_high();
-        frame(&mut panel, &mut scene, &mut buffers, &picture, number).await;
+        let sent = chain.frame_async(&picture, |band, words| {
+            if let Err(error) = scene.draw(band, words, number) {
+                defmt::error!("frame {}: {}", number, defmt::Display2Format(&error));
+            }
+        });
+        if let Err(error) = sent.await {
+            defmt::error!("frame {}: {}", number, defmt::Debug2Format(&error));
+        }
         marker.set_low();
         defmt::info!("frame {}: {} us", number, start.elapsed().as_micros());
         number = (number + 1) % FRAMES;
