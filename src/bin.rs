@@ -14,6 +14,7 @@ use crate::draw::{Counts, Frame, Outcome, RowRange};
 use crate::fragment::Fragment;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates};
+use crate::math::unsigned;
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
 use crate::setup::Tier;
 use crate::vertex::Vertex;
@@ -24,6 +25,14 @@ struct Entry {
     face: u16,
     first: u16,
     end: u16,
+}
+
+impl Entry {
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rows are below Viewport::MAX_SIDE")]
+    const fn new(face: u16, (first, end): RowRange) -> Self {
+        Self { face, first: unsigned(first) as u16, end: unsigned(end) as u16 }
+    }
 }
 
 /// Which rows of the picture the triangles of a mesh reach, for up to `N` triangles that show something; 6 bytes each.
@@ -99,26 +108,39 @@ impl<const N: usize> Bins<N> {
 
     /// The faces that reach rows `first` to before `end`, in the mesh's order, each once, and then those without an entry.
     pub fn faces(&self, first: u32, end: u32) -> impl Iterator<Item = usize> {
-        let mut last = None;
-        let reached = self.entries.iter().filter(move |entry| {
-            let reaches = u32::from(entry.first) < end && first < u32::from(entry.end);
-            // The parts in front of the eye and behind it have an entry each, one after the other.
-            let once = reaches && last != Some(entry.face);
-            if once {
-                last = Some(entry.face);
+        let (mut entries, mut last) = (self.entries.iter(), None);
+        let reached = core::iter::from_fn(move || {
+            loop {
+                let entry = entries.next()?;
+                // The parts in front of the eye and behind it have an entry each, one after the other.
+                if u32::from(entry.first) < end
+                    && first < u32::from(entry.end)
+                    && last != Some(entry.face)
+                {
+                    last = Some(entry.face);
+                    return last.map(usize::from);
+                }
             }
-            once
         });
-        reached.map(|entry| usize::from(entry.face)).chain(self.unbinned.clone())
+        reached.chain(self.unbinned.clone())
     }
 
-    /// Adds a face with the rows that it reaches; `None` where there is no room for it.
-    fn add(&mut self, face: usize, rows: &[RowRange]) -> Option<()> {
-        let before = self.entries.len();
+    /// Adds a face with the rows that it reaches, which are below 2^16; `None` where there is no room for it.
+    #[inline(always)]
+    fn add(&mut self, face: usize, [front, behind]: [RowRange; 2]) -> Option<()> {
         let face = u16::try_from(face).ok()?;
-        for &(first, end) in rows.iter().filter(|(first, end)| first < end) {
-            let [first, end] = [first, end].map(|row| u16::try_from(row).unwrap_or(0));
-            if self.entries.push(Entry { face, first, end }).is_err() {
+        if behind.0 < behind.1 {
+            return self.add_both(face, [front, behind]);
+        }
+        self.entries.push(Entry::new(face, front)).ok()
+    }
+
+    /// Adds a face of which the part behind the eye reaches some rows.
+    #[cold]
+    fn add_both(&mut self, face: u16, rows: [RowRange; 2]) -> Option<()> {
+        let before = self.entries.len();
+        for rows in rows.into_iter().filter(|(first, end)| first < end) {
+            if self.entries.push(Entry::new(face, rows)).is_err() {
                 self.entries.truncate(before);
                 return None;
             }
@@ -158,7 +180,7 @@ where
         let mut counts = Counts::default();
         for (face, indices) in mesh.triangles().iter().enumerate() {
             match self.reach_of(mesh, stage, *indices, cache) {
-                Ok(rows) if bins.add(face, &rows).is_none() => {
+                Ok(rows) if bins.add(face, rows).is_none() => {
                     bins.unbinned = face..mesh.triangles().len();
                     break;
                 }
@@ -170,7 +192,7 @@ where
     }
 
     /// The rows that a triangle of a mesh reaches.
-    #[inline]
+    #[inline(always)]
     fn reach_of<Q, A, S, const N: usize>(
         &self,
         mesh: &Mesh<'_, Q, A>,
@@ -187,7 +209,24 @@ where
         if let (Some(a), Some(b), Some(c)) = (i, j, k) {
             return self.reach([a, b, c]);
         }
-        let [a, b, c] = &self.corners(mesh, stage, indices, [i, j, k]);
+        self.reach_of_uncached(mesh, stage, indices, [i, j, k])
+    }
+
+    /// The same where some corners are not in the cache.
+    #[inline(never)]
+    fn reach_of_uncached<Q, A, S, const N: usize>(
+        &self,
+        mesh: &Mesh<'_, Q, A>,
+        stage: &S,
+        indices: [u16; 3],
+        cached: [Option<&Vertex<T, N, P>>; 3],
+    ) -> Result<[RowRange; 2], Outcome>
+    where
+        Q: StoredPosition,
+        S: VertexStage<A, N>,
+        W: Interpolates<N>,
+    {
+        let [a, b, c] = &self.corners(mesh, stage, indices, cached);
         self.reach([a, b, c])
     }
 

@@ -24,8 +24,10 @@ mod quick;
 mod slopes;
 mod tiny;
 
+#[cfg(feature = "heapless")]
+pub(crate) use exact::first_centres;
 pub(crate) use exact::{Anchored, determinant, outline};
-pub(crate) use outline::{Corner, Outline, Place, doubled_area, facing};
+pub(crate) use outline::{Corner, Outline, Place, bounds_of, doubled_area, facing};
 pub(crate) use plane::{Plane, Slopes};
 #[cfg(test)]
 pub(crate) use tiny::tests::triangles as tiny_triangles;

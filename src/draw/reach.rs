@@ -4,7 +4,7 @@ use super::{Frame, Outcome, rejected};
 use crate::depth::DepthTest;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates};
-use crate::setup::{Facing, Outline, Part, Setup, Tier, determinant, outline};
+use crate::setup::{Facing, Part, Setup, Tier, bounds_of, determinant, first_centres};
 use crate::traversal::{ClipWalk, Spans, edges};
 use crate::vertex::{Outside, Rect, Vertex};
 
@@ -13,6 +13,16 @@ pub(crate) type RowRange = (i32, i32);
 
 /// No rows.
 const NONE: RowRange = (0, 0);
+
+/// What is known of a triangle's rows from its box.
+enum Reach {
+    /// It reaches these, some.
+    Rows(RowRange),
+    /// It shows nothing of any.
+    Nothing(Outcome),
+    /// Its edges have to be followed.
+    Unknown,
+}
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
 where
@@ -26,6 +36,7 @@ where
     ///
     /// A triangle reaches a row if the line through the row's pixel centres has a point of it between the scissor's sides. What
     /// it covers of a row is one interval and what has it is convex, so that its rows are one range.
+    #[inline(always)]
     pub(crate) fn reach<const N: usize>(
         &self,
         vertices: [&Vertex<T, N, P>; 3],
@@ -33,58 +44,67 @@ where
     where
         W: Interpolates<N>,
     {
-        let [a, b, c] = vertices.map(|v| v.outside.0);
-        let (any, all) = (Outside(a | b | c), a & b & c);
-        if let Some(outcome) = rejected::<W, N>(all) {
-            return Err(outcome);
-        }
-        let scissor = self.viewport.scissor;
-        match self.whole_box(vertices, any, Outside(all))? {
-            // Away from the sides: each of the box's rows has a part of it.
-            Some(whole) if scissor.x0 < whole.x0 && whole.x1 < scissor.x1 => {
-                let shown = whole.intersect(scissor);
-                if shown.is_empty() {
-                    Err(Outcome::OffScreen)
-                } else {
-                    Ok([(shown.y0, shown.y1), NONE])
-                }
-            }
-            _ => self.reach_by_spans(vertices, any),
+        match self.reach_of_box(vertices) {
+            Reach::Rows(rows) => Ok([rows, NONE]),
+            Reach::Nothing(outcome) => Err(outcome),
+            Reach::Unknown => self.reach_by_spans(vertices),
         }
     }
 
-    /// The box of the pixel centres that a triangle reaches, the scissor left aside, where no plane cuts it and all of it is
-    /// in front; or why it is not drawn.
-    #[inline]
-    fn whole_box<const N: usize>(
-        &self,
-        vertices: [&Vertex<T, N, P>; 3],
-        any: Outside,
-        all: Outside,
-    ) -> Result<Option<Rect>, Outcome>
+    /// The rows of a triangle's box, where no plane cuts it, all of it is in front and it is away from the scissor's sides: then
+    /// each of them has a part of it.
+    #[inline(always)]
+    fn reach_of_box<const N: usize>(&self, vertices: [&Vertex<T, N, P>; 3]) -> Reach
     where
         W: Interpolates<N>,
     {
-        if self.cuts::<N>(any) {
-            return Ok(None);
+        let [a, b, c] = vertices.map(|v| v.outside.0);
+        let (any, all) = (Outside(a | b | c), a & b & c);
+        if any.0 & Outside::BOUNDS != 0 {
+            if let Some(outcome) = rejected::<W, N>(all) {
+                return Reach::Nothing(outcome);
+            }
+            if self.cuts::<N>(any) {
+                return Reach::Unknown;
+            }
         }
-        if T::PROJECTS && all.0 & Outside::PROJECTED != 0 {
-            let (corners, area) = self.oriented(vertices)?;
-            let outline = Outline::new(&corners, area > 0);
-            return Ok(Some(outline.bounds(T::SUBPIXEL_BITS)));
+        let whole = if T::PROJECTS && all & Outside::PROJECTED != 0 {
+            match self.oriented(vertices) {
+                Ok((corners, _)) => bounds_of(&corners, T::SUBPIXEL_BITS),
+                Err(outcome) => return Reach::Nothing(outcome),
+            }
+        } else {
+            match self.homogeneous_box(vertices, any) {
+                Ok(Some(whole)) => whole,
+                Ok(None) => return Reach::Unknown,
+                Err(outcome) => return Reach::Nothing(outcome),
+            }
+        };
+        let scissor = self.viewport.scissor;
+        if whole.x0 <= scissor.x0 || whole.x1 >= scissor.x1 {
+            return Reach::Unknown;
         }
-        let Some(positions) = T::homogeneous(vertices.map(|v| &v.position)) else {
+        let (first, end) = (whole.y0.max(scissor.y0), whole.y1.min(scissor.y1));
+        if first < end && whole.x0 < whole.x1 {
+            Reach::Rows((first, end))
+        } else {
+            Reach::Nothing(Outcome::OffScreen)
+        }
+    }
+
+    /// The box of a triangle on the exact tier's grid, where it is on the screen; or why it is not drawn.
+    #[inline(never)]
+    fn homogeneous_box<const N: usize>(
+        &self,
+        vertices: [&Vertex<T, N, P>; 3],
+        any: Outside,
+    ) -> Result<Option<Rect>, Outcome> {
+        let positions = T::homogeneous(vertices.map(|v| &v.position));
+        let Some(positions) = positions.filter(|_| any.0 & Outside::BOUNDS == 0) else {
             return Ok(None);
         };
-        if any.0 & (Outside::HITHER | Outside::SIDES) != 0 {
-            return Ok(None);
-        }
-        let facing = Facing::of(determinant(positions));
-        if let Some(outcome) = self.turned_away(facing) {
-            return Err(outcome);
-        }
-        let outline = facing.and_then(|facing| outline(positions, facing, &self.viewport));
-        Ok(outline.map(|outline| outline.bounds()))
+        self.turned_away(Facing::of(determinant(positions)))
+            .map_or(Ok(Some(first_centres(positions))), Err)
     }
 
     /// The rows of any triangle: the first and the last that it covers a pixel of, found by following its edges and the planes
@@ -93,11 +113,12 @@ where
     fn reach_by_spans<const N: usize>(
         &self,
         vertices: [&Vertex<T, N, P>; 3],
-        outside: Outside,
     ) -> Result<[RowRange; 2], Outcome>
     where
         W: Interpolates<N>,
     {
+        let [a, b, c] = vertices.map(|v| v.outside.0);
+        let outside = Outside(a | b | c);
         let setup = T::set_up(vertices.map(|v| &v.position), &self.viewport);
         let setup = setup.as_ref().ok_or(Outcome::ZeroArea)?;
         if self.cull.hides(setup.facing) {

@@ -6,7 +6,7 @@ use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
 use crate::interpolation::Correction;
 use crate::math::index;
-use crate::setup::{Tier, Tiny};
+use crate::setup::{Tier, Tiny, bounds_of};
 use crate::traversal::Scan;
 use crate::vertex::Vertex;
 use fixed::types::I16F16;
@@ -35,7 +35,7 @@ where
     {
         let vertices = [a, b, c];
         let corners = T::corners(vertices.map(|v| &v.position));
-        let whole = Tiny::bounds(&corners, T::SUBPIXEL_BITS);
+        let whole = bounds_of(&corners, T::SUBPIXEL_BITS);
         // Looked at, whatever the outcodes say: the vertices may be another viewport's.
         if !Tiny::is_within(whole) || !self.window.holds(whole) {
             return None;

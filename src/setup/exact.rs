@@ -116,6 +116,15 @@ pub(crate) fn outline(
     Some(Outline { top: top?, left: left?, right: right? })
 }
 
+/// The box of the pixel centres that a triangle of three vertices with `w > 0` may cover.
+#[cfg(feature = "heapless")]
+#[inline]
+pub(crate) fn first_centres([a, b, c]: [&ExactPosition; 3]) -> Rect {
+    let [columns, rows] = [[a.column, b.column, c.column], [a.row, b.row, c.row]];
+    let [x, y] = [columns, rows].map(|[a, b, c]| [a.min(b).min(c), a.max(b).max(c)].map(i32::from));
+    Rect { x0: x[0], y0: y[0], x1: x[1], y1: y[1] }
+}
+
 impl Outline<Anchored> {
     /// The box of the pixel centres it may cover.
     #[inline]

@@ -77,6 +77,17 @@ pub(crate) const fn first_centre(v: i32, bits: u32) -> i32 {
     (v + ((1 << bits) / 2 - 1)) >> bits
 }
 
+/// The box of the pixel centres that a triangle of corners in subpixels may cover.
+#[inline]
+pub(crate) fn bounds_of([p, q, r]: &[[i32; 2]; 3], bits: u32) -> Rect {
+    Rect {
+        x0: first_centre(p[0].min(q[0]).min(r[0]), bits),
+        y0: first_centre(p[1].min(q[1]).min(r[1]), bits),
+        x1: first_centre(p[0].max(q[0]).max(r[0]), bits),
+        y1: first_centre(p[1].max(q[1]).max(r[1]), bits),
+    }
+}
+
 impl<C: Place> Outline<C> {
     /// The same, whole pixels further to the right.
     #[inline]

@@ -21,7 +21,6 @@
 //! Error of the plane at a covered pixel, in its units: half of 2^13 by the rounded differences; a part in 2^21 of at
 //! most 2^32 by `R`; less than 1 for each of twice 2^11 steps by `g`. All in all less than 2^12 + 2^11 + 2^12 = 10240.
 
-use super::outline::first_centre;
 use crate::math::{high_product, inverse_area, low, signed, unsigned};
 use crate::vertex::Rect;
 use core::num::NonZeroU32;
@@ -64,17 +63,6 @@ impl Tiny {
         let pixel = 1 << (2 * bits);
         let (least, most) = (pixel / 4 + 1, 16 * pixel);
         low(doubled_area).unsigned_abs().wrapping_sub(least) < most - least
-    }
-
-    /// The box of the pixel centres that a triangle may cover.
-    #[inline]
-    pub(crate) fn bounds([p, q, r]: &[[i32; 2]; 3], bits: u32) -> Rect {
-        Rect {
-            x0: first_centre(p[0].min(q[0]).min(r[0]), bits),
-            y0: first_centre(p[1].min(q[1]).min(r[1]), bits),
-            x1: first_centre(p[0].max(q[0]).max(r[0]), bits),
-            y1: first_centre(p[1].max(q[1]).max(r[1]), bits),
-        }
     }
 
     /// Whether a triangle with that box has no side that is too long: one is less than a pixel longer than the box.
@@ -141,6 +129,7 @@ impl Tiny {
 
 #[cfg(test)]
 pub(crate) mod tests {
+    use super::super::outline::bounds_of;
     use super::*;
     use crate::setup::doubled_area;
 
@@ -168,7 +157,7 @@ pub(crate) mod tests {
                 _ => {}
             }
             let area = doubled_area(&p);
-            let bounds = Tiny::bounds(&p, bits);
+            let bounds = bounds_of(&p, bits);
             if Tiny::may_have(area, bits) && Tiny::is_within(bounds) && !bounds.is_empty() {
                 each(p, bounds, bits);
             }
@@ -240,7 +229,7 @@ pub(crate) mod tests {
                         [[end, 0], [0, near]],
                     ] {
                         let p = [[0, 0], q, r].map(|c: [i32; 2]| c.map(|v| v + shift));
-                        let bounds = Tiny::bounds(&p, bits);
+                        let bounds = bounds_of(&p, bits);
                         if !Tiny::may_have(doubled_area(&p), bits)
                             || !Tiny::is_within(bounds)
                             || bounds.is_empty()

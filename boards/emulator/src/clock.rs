@@ -79,3 +79,15 @@ pub fn spin(pairs: u32) {
 pub fn ticks_of_spin(pairs: u32) -> u32 {
     ticks(|| spin(pairs))
 }
+
+/// Starts the clock, and prints two spins: their difference is 200,000 instructions, whatever the clock. Gives the ticks of two
+/// reads with nothing between.
+#[cfg(feature = "report")]
+pub fn start_with_spins() -> u32 {
+    start();
+    let overhead = ticks(|| {});
+    for pairs in [1_000, 101_000] {
+        semihosting::println!("spin {pairs} {}", ticks_of_spin(pairs).wrapping_sub(overhead));
+    }
+    overhead
+}

@@ -23,12 +23,7 @@ impl Counter {
     /// Starts the clock, and prints two spins: their difference is 200,000 instructions, whatever the clock.
     #[must_use]
     pub fn start() -> Self {
-        clock::start();
-        let overhead = clock::ticks(|| {});
-        for pairs in [1_000, 101_000] {
-            let ticks = clock::ticks_of_spin(pairs).wrapping_sub(overhead);
-            println!("spin {pairs} {ticks}");
-        }
+        let overhead = clock::start_with_spins();
         Self {
             number: 0,
             overhead,

@@ -3,6 +3,7 @@
 //! Everything here is data in flash and integer code: no allocation, and no floating point after compilation.
 #![no_std]
 
+pub mod bands_16k;
 pub mod checksum;
 mod error;
 pub mod floor;

@@ -151,7 +151,7 @@ where
 }
 
 /// The teapot's vertices, turned and lit.
-fn teapot(world: &Mat4, moment: Moment) -> Result<Lit, MatrixError> {
+pub(crate) fn teapot(world: &Mat4, moment: Moment) -> Result<Lit, MatrixError> {
     let turned = Mat4::rotation_y(Angle(FIRST_ANGLE.0.wrapping_add(moment.angle().0)).sin_cos());
     Lit::new(world.times(&turned)?, &turned, TOWARDS_LIGHT, AMBIENT, DIFFUSE)
 }
@@ -188,7 +188,7 @@ where
 }
 
 /// From the world to clip space.
-fn camera(aspect: I16F16, focal: I16F16, moment: Moment) -> Result<Mat4, MatrixError> {
+pub(crate) fn camera(aspect: I16F16, focal: I16F16, moment: Moment) -> Result<Mat4, MatrixError> {
     let [x, y, z] = EYE;
     let eye = [x, y + SWAY * moment.angle().sin_cos().sin, z];
     let up = [I16F16::ZERO, I16F16::ONE, I16F16::ZERO];

@@ -36,12 +36,7 @@ static QUICK8: Vertices<Quick<8>> = Vertices::new();
 #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
 #[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
 fn main() -> ! {
-    clock::start();
-    // Two reads with nothing between.
-    let overhead = clock::ticks(|| {});
-    for pairs in [1_000, 101_000] {
-        println!("spin {pairs} {}", clock::ticks_of_spin(pairs).wrapping_sub(overhead));
-    }
+    let overhead = clock::start_with_spins();
     let mut buffers = Buffers { color: COLOR.take(), depth: DEPTH.take() };
     measure(&EXACT, &mut buffers, overhead);
     measure(&QUICK4, &mut buffers, overhead);

@@ -18,6 +18,7 @@
 
 mod corners;
 mod draw;
+mod output;
 mod texel;
 
 pub use corners::{Corner, DEPTH_ONE, corners};
@@ -25,6 +26,7 @@ pub use draw::{
     Buffers, CACHE, COLORS, COORDINATES, SNAPPED, TRIANGLES, draw, face_color, flat, flat_deep,
     gouraud, snap, textured, to_be_snapped, torus_flat, torus_gouraud,
 };
+pub use output::{BINNED, Colors, Output, Store, draw_output};
 pub use texel::{TEXTURE, TEXTURE_SIDE, texel_of};
 
 use hither::{
