@@ -61,7 +61,8 @@
 //!
 //! # Features
 //!
-//! - `embedded-graphics`: colours convert to and from embedded-graphics' own.
+//! - `embedded-graphics`: its draw targets are targets, by `OnDisplay`, and framebuffers and bands are
+//!   draw targets; colours convert to and from its own.
 //! - `heapless`: exact bins, for frames that are drawn in bands.
 //! - `micromath`: matrices from `f32` angles and numbers.
 //! - `defmt`: `defmt::Format` on outcomes, counts, colours and errors.
@@ -123,6 +124,8 @@ pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};
 pub use depth::{Always, Compare, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
 pub use dither::Dithered;
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
+#[cfg(feature = "embedded-graphics")]
+pub use eg::{DisplayColor, OnDisplay};
 pub use fixed;
 pub use fixed::types::I16F16;
 pub use fragment::{FaceColors, Flat, Fragment, Gouraud, Sample, Textured};

@@ -1,0 +1,108 @@
+//! Colours to and from embedded-graphics' own, at the edge: those are not plain words, so they
+//! cannot be what is stored.
+
+use crate::color::{Gray8, Rgb565, Rgb888};
+use embedded_graphics_core::pixelcolor::raw::{RawU8, RawU16, RawU24};
+use embedded_graphics_core::pixelcolor::{self, PixelColor, RgbColor};
+use embedded_graphics_core::prelude::{GrayColor, RawData};
+
+/// A colour that displays take, and which of ours is drawn for it: the one of the same bits, or else
+/// [`Rgb565`] for 15 bits, [`Rgb888`] for 18, and [`Gray8`] for fewer levels of grey or two colours, by
+/// embedded-graphics' own conversions.
+///
+/// A colour that is not among these is one of a display that converts: `color_converted` of embedded-graphics.
+pub trait DisplayColor: PixelColor + From<Self::Drawn> {
+    /// What is drawn with.
+    type Drawn: Copy;
+}
+
+impl From<pixelcolor::Rgb565> for Rgb565 {
+    #[inline]
+    fn from(color: pixelcolor::Rgb565) -> Self {
+        Self(RawU16::from(color).into_inner())
+    }
+}
+
+impl From<Rgb565> for pixelcolor::Rgb565 {
+    #[inline]
+    fn from(color: Rgb565) -> Self {
+        RawU16::new(color.0).into()
+    }
+}
+
+impl From<pixelcolor::Rgb888> for Rgb888 {
+    #[inline]
+    fn from(color: pixelcolor::Rgb888) -> Self {
+        Self::new(color.r(), color.g(), color.b())
+    }
+}
+
+impl From<Rgb888> for pixelcolor::Rgb888 {
+    #[inline]
+    fn from(color: Rgb888) -> Self {
+        RawU24::new(color.0).into()
+    }
+}
+
+impl From<pixelcolor::Gray8> for Gray8 {
+    #[inline]
+    fn from(color: pixelcolor::Gray8) -> Self {
+        Self(color.luma())
+    }
+}
+
+impl From<Gray8> for pixelcolor::Gray8 {
+    #[inline]
+    fn from(color: Gray8) -> Self {
+        RawU8::new(color.0).into()
+    }
+}
+
+macro_rules! drawn_as_the_same {
+    ($($color:ident),+) => {$(
+        impl DisplayColor for pixelcolor::$color {
+            type Drawn = $color;
+        }
+    )+};
+}
+
+drawn_as_the_same!(Rgb565, Rgb888, Gray8);
+
+/// Colours that embedded-graphics converts to from the one of the same bits as ours.
+macro_rules! drawn_as {
+    ($drawn:ident: $($color:ident),+) => {$(
+        impl From<$drawn> for pixelcolor::$color {
+            #[inline]
+            fn from(color: $drawn) -> Self {
+                pixelcolor::$drawn::from(color).into()
+            }
+        }
+
+        impl DisplayColor for pixelcolor::$color {
+            type Drawn = $drawn;
+        }
+    )+};
+}
+
+drawn_as!(Rgb565: Bgr565, Rgb555, Bgr555);
+drawn_as!(Rgb888: Bgr888, Rgb666, Bgr666);
+drawn_as!(Gray8: Gray4, Gray2, BinaryColor);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_go_there_and_back() {
+        for word in 0..=u16::MAX {
+            let ours = Rgb565(word);
+            let theirs = pixelcolor::Rgb565::from(ours);
+            assert_eq!((theirs.r(), theirs.g(), theirs.b()), (ours.r(), ours.g(), ours.b()));
+            assert_eq!(Rgb565::from(theirs), ours);
+        }
+        let color = pixelcolor::Rgb888::new(1, 2, 3);
+        assert_eq!(Rgb888::from(color), Rgb888::new(1, 2, 3));
+        assert_eq!(pixelcolor::Rgb888::from(Rgb888::new(1, 2, 3)), color);
+        assert_eq!(Gray8::from(pixelcolor::Gray8::from(Gray8(77))), Gray8(77));
+    }
+}
