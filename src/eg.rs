@@ -2,7 +2,10 @@
 //! framebuffers and bands are draw targets.
 
 mod color;
+mod framebuffer;
+mod on_band;
 mod on_display;
 
-pub use color::DisplayColor;
+pub use color::{AsPixelColor, DisplayColor};
+pub use on_band::OnBand;
 pub use on_display::OnDisplay;

@@ -280,7 +280,7 @@ impl<'a, F: PixelFormat> Framebuffer<'a, F> {
 
     /// The words of row `y` from column `x` on, to the end of the buffer.
     #[inline]
-    fn from(&mut self, x: usize, y: usize) -> &mut [F::Word] {
+    pub(crate) fn from(&mut self, x: usize, y: usize) -> &mut [F::Word] {
         let start = y * self.width as usize + x;
         self.words.get_mut(start..).unwrap_or_default()
     }

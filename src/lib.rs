@@ -125,7 +125,7 @@ pub use depth::{Always, Compare, DepthBuffer, DepthTest, DepthWord, Less, NoDept
 pub use dither::Dithered;
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 #[cfg(feature = "embedded-graphics")]
-pub use eg::{DisplayColor, OnDisplay};
+pub use eg::{AsPixelColor, DisplayColor, OnBand, OnDisplay};
 pub use fixed;
 pub use fixed::types::I16F16;
 pub use fragment::{FaceColors, Flat, Fragment, Gouraud, Sample, Textured};

@@ -16,6 +16,13 @@ pub trait DisplayColor: PixelColor + From<Self::Drawn> {
     type Drawn: Copy;
 }
 
+/// A colour of ours that is one of embedded-graphics', bit for bit: a [`Framebuffer`](crate::Framebuffer) of it, in whatever
+/// [`PixelFormat`](crate::PixelFormat), is a draw target.
+pub trait AsPixelColor: Copy + From<Self::PixelColor> {
+    /// embedded-graphics' own.
+    type PixelColor: PixelColor;
+}
+
 impl From<pixelcolor::Rgb565> for Rgb565 {
     #[inline]
     fn from(color: pixelcolor::Rgb565) -> Self {
@@ -58,10 +65,15 @@ impl From<Gray8> for pixelcolor::Gray8 {
     }
 }
 
+/// Colours that are the same bits there and here.
 macro_rules! drawn_as_the_same {
     ($($color:ident),+) => {$(
         impl DisplayColor for pixelcolor::$color {
             type Drawn = $color;
+        }
+
+        impl AsPixelColor for $color {
+            type PixelColor = pixelcolor::$color;
         }
     )+};
 }
