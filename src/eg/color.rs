@@ -103,6 +103,7 @@ drawn_as!(Gray8: Gray4, Gray2, BinaryColor);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use embedded_graphics_core::pixelcolor::BinaryColor;
 
     #[test]
     fn colours_go_there_and_back() {
@@ -116,5 +117,20 @@ mod tests {
         assert_eq!(Rgb888::from(color), Rgb888::new(1, 2, 3));
         assert_eq!(pixelcolor::Rgb888::from(Rgb888::new(1, 2, 3)), color);
         assert_eq!(Gray8::from(pixelcolor::Gray8::from(Gray8(77))), Gray8(77));
+    }
+
+    #[test]
+    fn displays_take_the_nearest() {
+        let color = Rgb565::new(3, 41, 30);
+        let theirs = pixelcolor::Bgr565::from(color);
+        assert_eq!((theirs.r(), theirs.g(), theirs.b()), (3, 41, 30));
+        let theirs = pixelcolor::Rgb555::from(color);
+        // 41 of 63 is 20.2 of 31.
+        assert_eq!((theirs.r(), theirs.g(), theirs.b()), (3, 20, 30));
+        let theirs = pixelcolor::Bgr666::from(Rgb888::new(255, 100, 7));
+        // 100 and 7 of 255 are 24.7 and 1.7 of 63.
+        assert_eq!((theirs.r(), theirs.g(), theirs.b()), (63, 25, 2));
+        assert_eq!(pixelcolor::Gray4::from(Gray8(0x7f)).luma(), 7);
+        assert_eq!([127, 128].map(|v| BinaryColor::from(Gray8(v)).is_on()), [false, true]);
     }
 }
