@@ -255,3 +255,39 @@ fn a_large_display_shows_a_viewport() {
         compare::<Rgb565, pixelcolor::Rgb565, _, _, 16>(area, viewport, knobs, &drawing, 22);
     assert!(drawn > 10_000, "{drawn} pixels");
 }
+
+/// embedded-graphics' own adapters over a framebuffer are displays too, and the other way round.
+#[test]
+fn both_directions_at_once() {
+    let (width, height) = (90, 70);
+    let area = Rectangle::new(Point::new(13, 8), Size::new(60, 50));
+    let (mut words, mut expected) = ([0x1234; 90 * 70], [0x1234; 90 * 70]);
+    let mut wide = [0; 60 * 50];
+
+    let mut buffer = Framebuffer::<Rgb565>::try_new(&mut words, width, height).expect("enough");
+    let mut clipped = buffer.clipped(&area);
+    let mut frame =
+        Frame::new(OnDisplay::new(&mut clipped)).expect("1 to 512").with_hither(hither());
+    let _ = draw(&mut frame, &Gouraud, 201);
+    let Ok(()) = frame.finish();
+
+    let buffer = Framebuffer::<Rgb565>::try_new(&mut expected, width, height).expect("enough");
+    let viewport = Viewport::new(60, 50).expect("1 to 512").with_origin(13, 8);
+    let mut frame = Frame::with_viewport(buffer, viewport).with_hither(hither());
+    let _ = draw(&mut frame, &Gouraud, 201);
+    assert!(words == expected);
+
+    let mut buffer = Framebuffer::<Rgb888>::try_new(&mut wide, 60, 50).expect("a word a pixel");
+    let mut converted = buffer.color_converted::<pixelcolor::Rgb565>();
+    let mut frame =
+        Frame::new(OnDisplay::new(&mut converted)).expect("1 to 512").with_hither(hither());
+    frame.clear(Rgb565(0x1234));
+    let _ = draw(&mut frame, &Gouraud, 201);
+    let Ok(()) = frame.finish();
+    for point in buffer.bounding_box().points() {
+        let at = point + area.top_left;
+        let narrow = pixelcolor::Rgb565::from(Rgb565(expected[(at.y * 90 + at.x) as usize]));
+        let shown = buffer.pixel(point.x as u32, point.y as u32).map(pixelcolor::Rgb888::from);
+        assert_eq!(shown, Some(narrow.into()), "{point}");
+    }
+}
