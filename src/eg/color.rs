@@ -6,11 +6,10 @@ use embedded_graphics_core::pixelcolor::raw::{RawU8, RawU16, RawU24};
 use embedded_graphics_core::pixelcolor::{self, PixelColor, RgbColor};
 use embedded_graphics_core::prelude::{GrayColor, RawData};
 
-/// A colour that displays take, and which of ours is drawn for it: the one of the same bits, or else
-/// [`Rgb565`] for 15 bits, [`Rgb888`] for 18, and [`Gray8`] for fewer levels of grey or two colours, by
-/// embedded-graphics' own conversions.
+/// A colour that displays take, and which of ours is drawn for it: [`Rgb565`] for those of 15 or 16 bits, [`Rgb888`] for 18
+/// or 24, and [`Gray8`] for levels of grey and for two colours, converted as embedded-graphics does.
 ///
-/// A colour that is not among these is one of a display that converts: `color_converted` of embedded-graphics.
+/// For a colour that is not among these there is embedded-graphics' `color_converted`, which makes another display of one.
 pub trait DisplayColor: PixelColor + From<Self::Drawn> {
     /// What is drawn with.
     type Drawn: Copy;
