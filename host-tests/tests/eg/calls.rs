@@ -156,7 +156,23 @@ fn a_target_that_is_dropped_draws_its_last_run() {
     );
 }
 
-/// A run goes on over a row's end only in numbers.
+/// What waits is drawn before what is filled after it, and not over what is cleared after it.
+#[test]
+fn drawing_keeps_its_order() {
+    let mut panel = panel();
+    let mut target = OnDisplay::new(&mut panel);
+    target.write(3, 4, [Some(Rgb565::RED); 2].into_iter());
+    target.fill(2, 4, 9, Rgb565::BLUE);
+    target.write(5, 4, [Some(Rgb565::RED)].into_iter());
+    target.clear(Rgb565::GREEN);
+    target.write(6, 4, [Some(Rgb565::RED)].into_iter());
+    assert_eq!(target.finish(), Ok(()));
+    let row = |x, width| Rectangle::new(AREA.top_left + Point::new(x, 4), Size::new(width, 1));
+    let areas: Vec<_> = panel.calls.iter().map(|call| call.area).collect();
+    assert_eq!(areas, [row(3, 2), row(2, 9), AREA, row(6, 1)]);
+}
+
+/// The first pixel of a row is not beside the last one of the row before.
 #[test]
 fn runs_end_with_their_row() {
     let mut panel = panel();
