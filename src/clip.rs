@@ -17,8 +17,8 @@
 //! `w`, which is what `1 / w` is interpolated from. On the exact tier's grid both are the same.
 
 use crate::math::{Scale, Signed, align, combine};
-use crate::setup::Setup;
-use crate::vertex::{ClipVertex, Position, ScaleOf, Snap, Snapped, Vertex};
+use crate::setup::{Segment, Setup};
+use crate::vertex::{ClipVertex, Outside, Position, ScaleOf, Snap, Snapped, Vertex};
 use fixed::types::I16F16;
 
 /// What is kept along `w`: a type, so that a scene without a hither plane has no code for one.
@@ -169,6 +169,50 @@ fn half_plane(setup: &Setup, values: &[Signed; 3], x: i32, y: i32) -> HalfPlane<
     let b = combine(&values, &setup.down());
     let value = combine(&values, &setup.edges_at(x, y)) - i128::from(!begins);
     HalfPlane { a, b, value, begins }
+}
+
+/// Leaves what is inside of a plane of a line with values `[k_i n(p_i)]` at its ends. The pixel of an end whose centre is beyond
+/// it is left where the end is inside.
+#[inline(never)]
+fn cut(segment: &mut Segment, [u, v]: [Signed; 2]) {
+    let [uw, vw] = segment.w();
+    let (values, _) = align(&[u, v, Signed::of(0)]);
+    let step = combine(&values, &segment.weight_steps());
+    let value = combine(&values, &segment.weights(segment.from));
+    let begins = step >= 0;
+    let [(low, low_w), (high, high_w)] =
+        if begins { [(u, uw), (v, vw)] } else { [(v, vw), (u, uw)] };
+    // At an end in front the function is of the end's own sign: all is inside if that is the lower one, nothing if it is
+    // outside at the higher one.
+    let all = low_w > 0 && !low.negative;
+    let nothing = high_w > 0 && high.negative;
+    if nothing {
+        segment.to = segment.from;
+    } else if !all {
+        // `!v` is `-v - 1`: 0 or more where `v` is negative.
+        let (value, step) = if begins { (value, step) } else { (!value, -step) };
+        segment.cut(value, step, begins);
+    }
+}
+
+/// Leaves what is inside of the planes that a bit of `outside` names of a line between two vertices in the segment's order:
+/// the steps at whose centres it is, decided as well as a pixel of a triangle is.
+#[inline(never)]
+pub(crate) fn cut_line<T: Snap, const N: usize, const P: usize>(
+    segment: &mut Segment,
+    [a, b]: [&Vertex<T, N, P>; 2],
+    hither: Option<Hither>,
+    outside: Outside,
+) {
+    if let Some(hither) = hither.filter(|_| outside.0 & Outside::HITHER != 0) {
+        let value = |vertex: &Vertex<T, N, P>| above_hither(&vertex.position, hither);
+        cut(segment, [value(a), value(b)]);
+    }
+    for i in 0..P {
+        if outside.0 & (Outside::FIRST_PLANE << i) != 0 {
+            cut(segment, [above_plane(a, i), above_plane(b, i)]);
+        }
+    }
 }
 
 /// `k n(p)` of a vertex, for clip plane `i`.

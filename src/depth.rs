@@ -4,8 +4,11 @@
 //! 1997, section 4). The running value is 32 bits, `(z / w)(2^N - 1) 2^(32 - N)`; its top `N` bits
 //! are stored, rounded.
 
+mod line;
 mod plane;
 
+pub use line::DepthBias;
+pub(crate) use line::DepthLine;
 pub(crate) use plane::{DepthPlane, DepthRun, projected, ranged};
 
 use crate::buffer::BufferSize;

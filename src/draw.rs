@@ -6,6 +6,7 @@ mod flat;
 mod frame;
 mod homogeneous;
 mod lanes;
+mod line;
 mod projected;
 #[cfg(feature = "heapless")]
 mod reach;
@@ -33,7 +34,7 @@ use projected::Deep;
 use shade::{NoVaryings, Shading};
 use shape::Shape;
 
-/// What became of a triangle.
+/// What became of a triangle, or of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -55,7 +56,7 @@ pub enum Outcome {
     ZeroArea,
 }
 
-/// What became of a mesh's triangles: how many each.
+/// What became of a mesh's triangles, or of their lines: how many each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Counts {

@@ -121,7 +121,7 @@ pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 #[doc(hidden)]
 pub use color::Lane;
 pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};
-pub use depth::{Always, Compare, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
+pub use depth::{Always, Compare, DepthBias, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
 pub use dither::Dithered;
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 #[cfg(feature = "embedded-graphics")]

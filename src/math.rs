@@ -6,6 +6,7 @@
 
 use core::hint::black_box;
 use core::num::NonZeroU32;
+use core::ops::{Add, Shl};
 
 /// `v / 2^n`, rounded to nearest, halves towards plus infinity. `n` is 0 to 62.
 #[inline]
@@ -241,6 +242,34 @@ fn refined_split(x: u32, m: u32) -> u32 {
     let step = (bits(x >> 9) * high + (sum >> 9)) >> 9;
     // 2^31 to 2^32: the step may be negative.
     (x << 15).wrapping_add_signed(step)
+}
+
+/// Steps are counted to this.
+pub(crate) const MOST_STEPS: i32 = 1 << STEP_BITS;
+
+const STEP_BITS: u32 = 10;
+
+/// How many times `step`, which is not negative, is to be added to `value` before it is 0 or more; at most `most`, which
+/// is up to [`MOST_STEPS`]. By additions: `step` has 9 bits to spare.
+#[inline(never)]
+pub(crate) fn steps_to_zero<I>(mut value: I, step: I, most: i32) -> i32
+where
+    I: Copy + Default + PartialOrd + Add<Output = I> + Shl<u32, Output = I>,
+{
+    let zero = I::default();
+    if value >= zero {
+        return 0;
+    }
+    let mut last_below = 0;
+    for bit in (0..STEP_BITS).rev() {
+        let next = value + (step << bit);
+        if next < zero {
+            value = next;
+            last_below += 1 << bit;
+        }
+        black_box(());
+    }
+    most.min(last_below + 1)
 }
 
 /// `2^41 / d`, floored, for `d` of more than 2^14 and less than 2^20: 21 to 27 bits.
@@ -519,6 +548,22 @@ mod tests {
             let r = u128::from(reciprocal(m));
             assert!(exact.abs_diff(r) << 29 <= exact, "1 / {m}: {r}, not {exact}");
         }
+    }
+
+    #[test]
+    fn steps_are_counted() {
+        for value in -40..5i64 {
+            for step in 0..9 {
+                for most in [0, 1, 7, MOST_STEPS] {
+                    let steps = (0..most).find(|&n| value + step * i64::from(n) >= 0);
+                    assert_eq!(steps_to_zero(value, step, most), steps.unwrap_or(most));
+                }
+            }
+        }
+        let most = i128::from(MOST_STEPS);
+        assert_eq!(steps_to_zero(-most, 1, MOST_STEPS), MOST_STEPS);
+        assert_eq!(steps_to_zero(-most + 1, 1, MOST_STEPS), MOST_STEPS - 1);
+        assert_eq!(steps_to_zero(-3 << 61, 1i64 << 52, MOST_STEPS), MOST_STEPS);
     }
 
     #[test]

@@ -18,6 +18,7 @@
 //! What few triangles go through is loops, and functions that are not inlined: flash counts there.
 
 mod exact;
+mod line;
 mod outline;
 mod plane;
 mod quick;
@@ -27,6 +28,7 @@ mod tiny;
 #[cfg(feature = "heapless")]
 pub(crate) use exact::first_centres;
 pub(crate) use exact::{Anchored, determinant, outline};
+pub(crate) use line::Segment;
 pub(crate) use outline::{Corner, Outline, Place, bounds_of, doubled_area, facing};
 pub(crate) use plane::{Plane, Slopes};
 #[cfg(test)]

@@ -13,6 +13,7 @@
 //! subtracting 1 from any other beforehand makes all of them `E >= 0`.
 
 mod exact;
+mod line;
 mod rows;
 mod scan;
 #[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
@@ -20,6 +21,7 @@ mod shared;
 mod side;
 
 pub(crate) use exact::Stepped;
+pub(crate) use line::LineRuns;
 pub(crate) use rows::Rows;
 use rows::ShortRows;
 pub(crate) use scan::Scan;

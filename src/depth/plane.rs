@@ -165,7 +165,7 @@ impl DepthPlane {
 
 /// `k z` of a vertex.
 #[inline(never)]
-fn scaled_z<T: Snap, const N: usize, const P: usize>(v: &Vertex<T, N, P>) -> Signed {
+pub(super) fn scaled_z<T: Snap, const N: usize, const P: usize>(v: &Vertex<T, N, P>) -> Signed {
     if v.outside.0 & Outside::RANGED != 0 {
         // z / w times k w.
         let w = Scale::of(u64::from(v.position.scaled_w().unsigned_abs()));

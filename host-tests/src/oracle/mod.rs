@@ -5,6 +5,7 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `line` | which pixels a line draws |
 //! | `linear` | viewports, spaces, parts, and integer linear functions over the pixels |
 //! | `coverage` | which pixels a triangle covers |
 //! | `interpolate` | attributes, `1/w` and depth at a pixel |
@@ -18,7 +19,9 @@ pub mod clip;
 pub mod closed;
 pub mod coverage;
 pub mod generate;
+
 pub mod interpolate;
+pub mod line;
 pub mod linear;
 pub mod mesh;
 pub mod rng;
@@ -28,6 +31,7 @@ pub use closed::{Eye, Solid, closed};
 pub use coverage::{ExactTriangle, covers_big};
 pub use generate::{Category, GRID, random_viewport, triangle};
 pub use interpolate::{PerspectiveFunction, ScreenFunction, Surface, scale_of};
+pub use line::{ExactLine, LinePixel};
 pub use linear::{Part, RationalVertex, Space, Vertex, Viewport, whole};
 pub use mesh::{FanCentre, Invariant, Mesh, Sheet, fan, sheet};
 pub use rng::Rng;
