@@ -4,6 +4,7 @@ use crate::buffer::BufferSize;
 use crate::color::PixelFormat;
 use crate::math::index;
 use crate::traversal::Scan;
+use crate::vertex::Rect;
 use bytemuck::Pod;
 
 /// What spans are drawn into.
@@ -262,6 +263,21 @@ impl<'a, F: PixelFormat> Framebuffer<'a, F> {
     pub fn bytes(&self) -> &[u8] {
         let pixels = self.width as usize * self.height as usize;
         bytemuck::cast_slice(self.words.get(..pixels).unwrap_or_default())
+    }
+
+    /// The pixels of a rectangle as they are stored, a row at a time from the top: what is sent for a part of a picture, such as what
+    /// a [`Dirty`](crate::Dirty) target says. Of one that is not all in the buffer the part that is.
+    pub fn rect_words(&self, rect: Rect) -> impl Iterator<Item = &[F::Word]> {
+        let side = |v: i32, size: u32| usize::try_from(v).unwrap_or(0).min(size as usize);
+        let (x0, x1) = (side(rect.x0, self.width), side(rect.x1, self.width));
+        let (y0, y1) = (side(rect.y0, self.height), side(rect.y1, self.height));
+        let rows = self.words.chunks_exact(self.width as usize).take(y1).skip(y0);
+        rows.filter_map(move |row| row.get(x0..x1).filter(|row| !row.is_empty()))
+    }
+
+    /// [`rect_words`](Self::rect_words) as bytes in memory order.
+    pub fn rect_bytes(&self, rect: Rect) -> impl Iterator<Item = &[u8]> {
+        self.rect_words(rect).map(bytemuck::cast_slice)
     }
 
     /// The colour at a pixel, or `None` outside of the buffer.

@@ -95,6 +95,7 @@ mod buffer;
 mod clip;
 mod color;
 mod depth;
+mod dirty;
 mod dither;
 mod draw;
 #[cfg(feature = "embedded-graphics")]
@@ -122,6 +123,7 @@ pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 pub use color::Lane;
 pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};
 pub use depth::{Always, Compare, DepthBias, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
+pub use dirty::Dirty;
 pub use dither::Dithered;
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 #[cfg(feature = "embedded-graphics")]

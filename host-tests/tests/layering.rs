@@ -18,6 +18,7 @@ const ORDER: [&str; 22] = [
     "depth",
     "texture",
     "framebuffer",
+    "dirty",
     "fragment",
     "dither",
     "mesh",

@@ -30,6 +30,24 @@ impl Rect {
         }
     }
 
+    /// The smallest rectangle that holds both; the other one, where one is empty.
+    #[inline]
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        if other.is_empty() {
+            return self;
+        }
+        if self.is_empty() {
+            return other;
+        }
+        Self {
+            x0: self.x0.min(other.x0),
+            y0: self.y0.min(other.y0),
+            x1: self.x1.max(other.x1),
+            y1: self.y1.max(other.y1),
+        }
+    }
+
     /// The same, `x` columns to the right and `y` rows down.
     #[inline]
     pub(crate) const fn moved(self, x: i32, y: i32) -> Self {
