@@ -3,6 +3,7 @@
 pub mod command;
 pub mod error;
 pub mod firmware;
+pub mod outputs;
 pub mod peers;
 pub mod readme;
 pub mod size;

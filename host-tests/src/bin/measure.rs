@@ -14,9 +14,10 @@ use hither_scenes::workloads::Workload;
 use host_tests::cross::{MACHINES, Machine, toolchain};
 use host_tests::measure::command::{Documents, chosen, progress, tables};
 use host_tests::measure::error::references;
+use host_tests::measure::outputs::Cost;
 use host_tests::measure::readme::blocks;
 use host_tests::measure::size::{FIRMWARES, ISAS, Size};
-use host_tests::measure::{Figure, TIERS, firmware, size, unit_name, write_csv};
+use host_tests::measure::{Figure, TIERS, firmware, outputs, size, unit_name, write_csv};
 use indicatif::ProgressBar;
 use std::process::ExitCode;
 
@@ -83,36 +84,43 @@ fn measure(asked: &Asked) -> Result<(), String> {
     } else {
         Vec::new()
     };
-    let steps = 1 + asked.machines.len() + sized.len() * (1 + FIRMWARES.len() * TIERS.len());
+    let steps = 1 + asked.machines.len() + sized.len() * (2 + FIRMWARES.len() * TIERS.len());
     let bar = progress(steps as u64);
-    let (figures, sizes) = collect(asked, &sized, &bar)?;
+    let Collected { figures, outputs, sizes } = collect(asked, &sized, &bar)?;
     bar.finish_and_clear();
     let Some(first) = asked.machines.first() else {
         return Err("no instruction set is asked for".to_owned());
     };
     let toolchain = toolchain(first.target)?;
-    print(&figures, &sizes, &toolchain);
+    print(&figures, &toolchain);
+    print_outputs(&outputs);
+    print_sizes(&sizes);
     write_csv(&target_folder().join("measure.csv"), &figures, &toolchain)?;
     if !sizes.is_empty() {
         size::write_csv(&target_folder().join("size.csv"), &sizes, &toolchain)?;
     }
     if asked.documents == Documents::Check {
         size::check_stack(&sizes)?;
+        outputs::check(&outputs)?;
     }
-    let blocks = blocks(&figures, &sizes, &toolchain);
+    let mut blocks = blocks(&figures, &sizes, &toolchain);
+    blocks.push(outputs::block(&outputs, &toolchain));
     tables("measure", asked.documents, &DOCUMENTS, &blocks)
 }
 
+/// What was measured.
+struct Collected {
+    figures: Vec<Figure>,
+    outputs: Vec<Cost>,
+    sizes: Vec<Size>,
+}
+
 /// Builds and runs everything.
-fn collect(
-    asked: &Asked,
-    sized: &[&Machine],
-    bar: &ProgressBar,
-) -> Result<(Vec<Figure>, Vec<Size>), String> {
+fn collect(asked: &Asked, sized: &[&Machine], bar: &ProgressBar) -> Result<Collected, String> {
     bar.set_message("host: references");
     let references = references(&Workload::ALL);
     bar.inc(1);
-    let (mut figures, mut sizes) = (Vec::new(), Vec::new());
+    let (mut figures, mut outputs, mut sizes) = (Vec::new(), Vec::new(), Vec::new());
     for machine in &asked.machines {
         bar.set_message(format!("{}: every workload", machine.isa));
         for count in firmware::count(machine)? {
@@ -129,14 +137,17 @@ fn collect(
         bar.inc(1);
     }
     for machine in sized {
+        bar.set_message(format!("{}: whole and in bands", machine.isa));
+        outputs.extend(outputs::count(machine, &references)?);
+        bar.inc(1);
         bar.set_message(format!("{}: flash, RAM and stack", machine.isa));
         sizes.extend(size::measure(machine, || bar.inc(1))?);
     }
-    Ok((figures, sizes))
+    Ok(Collected { figures, outputs, sizes })
 }
 
 /// Prints the figures.
-fn print(figures: &[Figure], sizes: &[Size], toolchain: &str) {
+fn print(figures: &[Figure], toolchain: &str) {
     println!("{toolchain}, opt-level 3, LTO; instructions executed, largest and mean error\n");
     println!(
         "{:8} {:9} {:7} {:>12} {:>10}     {:9} {:>7} {:>11} {:>11}",
@@ -157,6 +168,24 @@ fn print(figures: &[Figure], sizes: &[Size], toolchain: &str) {
             figure.deviation.unit
         );
     }
+}
+
+/// Prints what ways to a display take.
+fn print_outputs(outputs: &[Cost]) {
+    if !outputs.is_empty() {
+        println!(
+            "\n{:8} {:10} {:9} {:7} {:>8} {:>12}",
+            "isa", "output", "workload", "tier", "RAM", "instructions"
+        );
+    }
+    for Cost { isa, name, workload, tier, ram, instructions } in outputs {
+        let workload = workload.name();
+        println!("{isa:8} {name:10} {workload:9} {tier:7} {ram:8} {instructions:12}");
+    }
+}
+
+/// Prints what firmwares take.
+fn print_sizes(sizes: &[Size]) {
     if !sizes.is_empty() {
         println!(
             "\n{:8} {:9} {:7} {:>8} {:>8} {:>8}",

@@ -8,7 +8,7 @@ use hither_scenes::workloads::Workload;
 use std::fmt::Write;
 
 /// The tables there are: `peers` by the command of that name, `presets` by `trade`, the others by `measure`.
-const NAMES: [&str; 6] = ["cost", "cost-all", "error", "size", "peers", "presets"];
+const NAMES: [&str; 7] = ["cost", "cost-all", "error", "outputs", "size", "peers", "presets"];
 
 /// Names and texts of the tables.
 #[derive(Clone, Debug, PartialEq, Eq)]
