@@ -5,6 +5,7 @@ pub mod boards;
 pub mod cross;
 pub mod dump;
 pub mod measure;
+pub mod mesh;
 pub mod oracle;
 pub mod record;
 pub mod snapped;
