@@ -5,6 +5,7 @@
 
 use std::error::Error;
 use std::path::PathBuf;
+use std::process::ExitCode;
 use std::{env, fs};
 
 use hither::{
@@ -45,7 +46,17 @@ const BACKGROUND: Rgb565 = Rgb565::new(10, 30, 19);
 /// fixed point is at its best.
 const FRACTION_BITS: u32 = 14;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match view() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn view() -> Result<(), Box<dyn Error>> {
     let options = Options::of(env::args().skip(1))?;
     let viewed = Viewed::read(&options)?;
     #[cfg(feature = "simulator")]

@@ -4,8 +4,8 @@
 use std::fmt::Write;
 use std::fs;
 
-use hither_models::module::{Module, grouped, keep, means};
-use hither_models::{Image, Model};
+use hither_models::module::{Module, grouped, means};
+use hither_models::{Image, Keep, Model};
 
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -74,7 +74,8 @@ pub fn made(options: &Options) -> Result<Made, String> {
         }
         None => None,
     };
-    let model = Model::read(&read(name)?, keep(image.is_some()));
+    let keep = if image.is_some() { Keep::Textured } else { Keep::Lit };
+    let model = Model::read(&read(name)?, keep);
     let model = model.map_err(|error| format!("{name}: {error}"))?;
     let texture = image.as_ref().map(|(image, path)| (image, *path));
     let module = Module { model: &model, name, texture };

@@ -102,9 +102,9 @@ impl Image {
 }
 
 /// Each channel of 8 bits to the nearest of 5, 6 and 5.
-fn pack(rgb: [u8; 3]) -> u16 {
-    let [r, g, b] = rgb.map(u16::from);
-    (r * 31 + 127) / 255 << 11 | (g * 63 + 127) / 255 << 5 | (b * 31 + 127) / 255
+fn pack([r, g, b]: [u8; 3]) -> u16 {
+    let nearest = |channel: u8, most: u16| ((u16::from(channel) * most + 127) / 255) as u8;
+    Rgb565::new(nearest(r, 31), nearest(g, 63), nearest(b, 31)).0
 }
 
 #[cfg(test)]

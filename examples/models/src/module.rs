@@ -6,12 +6,12 @@ use crate::bounds::Bounds;
 use crate::image::Image;
 use crate::model::Model;
 use crate::order::transforms;
-use crate::weld::{Keep, ModelVertex};
+use crate::weld::ModelVertex;
 
 /// What a module is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct Module<'a> {
-    /// The model: [`Keep::Lit`], or [`Keep::Textured`] with a texture.
+    /// The model: [`Keep::Lit`](crate::Keep), or [`Keep::Textured`](crate::Keep) with a texture.
     pub model: &'a Model,
     /// The name of its file.
     pub name: &'a str,
@@ -64,13 +64,13 @@ impl Module<'_> {
     }
 
     fn header(&self, out: &mut String) -> fmt::Result {
-        let (model, bytes) = (self.model, self.bytes());
+        let model = self.model;
         let [vertices, triangles] = [model.vertices().len(), model.triangles().len()];
         let name = file_name(self.name);
-        let grouped_bytes = grouped(bytes.total());
+        let bytes = grouped(self.bytes().total());
         writeln!(
             out,
-            "//! {name}, for hither: {}, {}, {grouped_bytes} bytes of flash.",
+            "//! {name}, for hither: {}, {}, {bytes} bytes of flash.",
             counted(vertices, "vertex", "vertices"),
             counted(triangles, "triangle", "triangles"),
         )?;
@@ -81,15 +81,7 @@ impl Module<'_> {
             out,
             "//!\n//! Made by `cargo run -p host-tests --release --bin mesh -- {name}{texture}`.\n//!"
         )?;
-        writeln!(out, "//! | data | bytes |\n//! | --- | --- |")?;
-        writeln!(out, "//! | positions | {} |", grouped(bytes.positions))?;
-        let attributes =
-            if self.texture.is_some() { "texture coordinates" } else { "normals and colours" };
-        writeln!(out, "//! | {attributes} | {} |", grouped(bytes.attributes))?;
-        writeln!(out, "//! | triangles | {} |", grouped(bytes.triangles))?;
-        if bytes.texels > 0 {
-            writeln!(out, "//! | texture | {} |", grouped(bytes.texels))?;
-        }
+        self.bytes_table(out)?;
         let bits = model.fraction_bits();
         writeln!(
             out,
@@ -119,10 +111,24 @@ impl Module<'_> {
         for (entries, mean) in means(model) {
             writeln!(out, "//! | {} | {mean:.2} |", grouped(entries))?;
         }
-        self.use_of_it(out)
+        self.usage(out)
     }
 
-    fn use_of_it(&self, out: &mut String) -> fmt::Result {
+    fn bytes_table(&self, out: &mut String) -> fmt::Result {
+        let bytes = self.bytes();
+        writeln!(out, "//! | data | bytes |\n//! | --- | --- |")?;
+        writeln!(out, "//! | positions | {} |", grouped(bytes.positions))?;
+        let attributes =
+            if self.texture.is_some() { "texture coordinates" } else { "normals and colours" };
+        writeln!(out, "//! | {attributes} | {} |", grouped(bytes.attributes))?;
+        writeln!(out, "//! | triangles | {} |", grouped(bytes.triangles))?;
+        if bytes.texels > 0 {
+            writeln!(out, "//! | texture | {} |", grouped(bytes.texels))?;
+        }
+        Ok(())
+    }
+
+    fn usage(&self, out: &mut String) -> fmt::Result {
         let (drawn, planned) = if self.texture.is_some() {
             (
                 "frame.draw(&MESH, &transform, &Textured(TEXTURE), &mut [Vertex::EMPTY; VERTEX_COUNT]);",
@@ -152,15 +158,18 @@ impl Module<'_> {
 
     fn data(&self, out: &mut String) -> fmt::Result {
         let model = self.model;
-        let (vertices, triangles) = (model.vertices(), model.triangles());
         let [kind, used] = match self.texture {
             Some(_) => ["[I16F16; 2]", "I16F16, Mesh, Rgb565, Texture"],
             None => ["NormalColor", "Mesh, NormalColor"],
         };
         writeln!(out, "use hither::{{{used}}};\n")?;
         writeln!(out, "/// Vertices: entries of a cache that transforms each once.")?;
-        writeln!(out, "pub const VERTEX_COUNT: usize = {};\n", vertices.len())?;
-        writeln!(out, "/// Triangles.\npub const TRIANGLE_COUNT: usize = {};\n", triangles.len())?;
+        writeln!(out, "pub const VERTEX_COUNT: usize = {};\n", model.vertices().len())?;
+        writeln!(
+            out,
+            "/// Triangles.\npub const TRIANGLE_COUNT: usize = {};\n",
+            model.triangles().len()
+        )?;
         writeln!(out, "/// Bits of fraction of a position.")?;
         writeln!(out, "pub const FRACTION_BITS: u32 = {};\n", model.fraction_bits())?;
         bounds(out, &model.bounds())?;
@@ -176,7 +185,12 @@ impl Module<'_> {
             out,
             "        Ok(mesh) => mesh,\n        Err(_) => panic!(\"the mesh's data\"),\n    }};\n"
         )?;
-        writeln!(out, "/// Positions in units of 2^-{}.", model.fraction_bits())?;
+        self.tables(out)
+    }
+
+    fn tables(&self, out: &mut String) -> fmt::Result {
+        let (vertices, triangles) = (self.model.vertices(), self.model.triangles());
+        writeln!(out, "/// Positions in units of 2^-{}.", self.model.fraction_bits())?;
         let rows = vertices.iter().map(|vertex| list(&vertex.position));
         table(out, "pub static POSITIONS: [[i16; 3]; VERTEX_COUNT]", rows)?;
         if self.texture.is_some() {
@@ -199,7 +213,7 @@ impl Module<'_> {
             )?;
         }
         writeln!(out, "/// Three vertices a triangle, counter-clockwise from the front.")?;
-        let rows = triangles.iter().map(|triangle| list(triangle));
+        let rows = triangles.iter().map(list);
         table(out, "pub static TRIANGLES: [[u16; 3]; TRIANGLE_COUNT]", rows)?;
         if let Some((image, _)) = self.texture {
             texture(out, image)?;
@@ -328,10 +342,4 @@ pub fn grouped(number: usize) -> String {
         grouped.push(digit);
     }
     grouped
-}
-
-/// What a module keeps of a model's vertices.
-#[must_use]
-pub const fn keep(textured: bool) -> Keep {
-    if textured { Keep::Textured } else { Keep::Lit }
 }

@@ -4,10 +4,10 @@
 //! axis that its plane faces most: an affine picture of its own plane, in which what is convex stays so. Corners without turn,
 //! which are common where neighbours are finer, stay corners: no neighbour's vertex is left on an edge.
 //!
-//! A strictly convex polygon is a fan. Of any other, ears are cut (Meisters 1975, "Polygons have ears"; the two neighbours are
-//! looked at again, as O'Rourke 1998 does, section 1.4): `O(n r)` for `n` corners of which `r` do not turn inwards. A polygon that crosses itself has
-//! ears that are none: then any corner is cut. Whatever the polygon, `n - 2` triangles come out of `n` different consecutive
-//! corners; their directed edges add up to its outline, and so their areas to its area.
+//! A strictly convex polygon is a fan. Of any other, ears are cut (Meisters 1975, "Polygons have ears"), and only the two neighbours
+//! of one are looked at again (O'Rourke 1998, "Computational Geometry in C", section 1.4): `O(n r)` for `n` corners of which `r`
+//! turn outwards or not at all. A polygon that crosses itself may run out of ears: then any corner is cut. Whatever the polygon,
+//! `n` corners give `n - 2` triangles; their directed edges add up to its outline, and so their areas to its area.
 
 use std::collections::VecDeque;
 
@@ -82,14 +82,12 @@ fn fan(corners: &[[i64; 3]]) -> impl Iterator<Item = [i64; 3]> {
     })
 }
 
-/// Whether every corner turns left, and all of them once round: a pentagram turns left too.
+/// Whether every corner turns left. A star that winds round more than once does so too; it crosses itself, and a fan serves it
+/// as well as anything.
 fn is_strictly_convex(points: &[Point]) -> bool {
     let count = points.len();
     let at = |i: usize| points[i % count];
-    let turns = (0..count).all(|i| doubled_area(at(i), at(i + 1), at(i + 2)) > 0);
-    // Once round, an outline goes from left to right and back.
-    let right = |i: usize| at(i) < at(i + 1);
-    turns && (0..count).filter(|&i| right(i) != right(i + 1)).count() == 2
+    (0..count).all(|i| doubled_area(at(i), at(i + 1), at(i + 2)) > 0)
 }
 
 /// A polygon whose ears are being cut: corners in a ring.
@@ -101,7 +99,7 @@ struct Ears<'a> {
     /// Corners that turned right or not at all at the beginning; those cut are taken out now and then.
     blunt: Vec<usize>,
     left: usize,
-    /// Points that may still be looked at: many times what a polygon that does not cross itself takes. Then any corner is an ear.
+    /// Points that may still be looked at: more than a polygon takes that does not cross itself. Then any corner is an ear.
     looks: u64,
 }
 
@@ -121,7 +119,7 @@ impl<'a> Ears<'a> {
         let previous: Vec<usize> = (0..count).map(|i| (i + count - 1) % count).collect();
         let blunt = |&i: &usize| doubled_area(points[previous[i]], points[i], points[next[i]]) <= 0;
         let blunt = (0..count).filter(blunt).collect();
-        let looks = 64 + 16 * (count as u64).pow(2);
+        let looks = 2 * (count as u64).pow(2);
         Self { points, next, previous, cut: vec![false; count], blunt, left: count, looks }
     }
 

@@ -22,7 +22,7 @@ fn every_colour_type_is_read() {
         (Grayscale, Eight, &[0, 255], [0, 0xffff], false),
         (GrayscaleAlpha, Eight, &[0, 255, 255, 255], [0, 0xffff], false),
         (Rgb, Sixteen, &[255, 255, 0, 0, 0, 0, 0, 0, 255, 255, 0, 0], [0xf800, 0x07e0], false),
-        (Indexed, Two, &[0b10_11_0000], [0xf800, 0x001f], false),
+        (Indexed, Two, &[0b1011_0000], [0xf800, 0x001f], false),
     ] {
         let image = Image::read_png(&encoded(color, depth, [2, 1], bytes)).unwrap();
         assert_eq!(
