@@ -185,8 +185,8 @@ impl Viewed {
         let unit = (f64::from(self.model.fraction_bits()) - f64::from(FRACTION_BITS)).exp2();
         let middle = bounds.center.map(|v| I16F16::from_num(-f64::from(v) * unit));
         let larger = I16F16::saturating_from_num(1.0 / (f64::from(bounds.radius) * unit));
-        // What a matrix holds; a model of a few steps of its grid stays small.
-        let size = Mat4::scaling([larger.min(I16F16::lit("4096")); 3])?;
+        // What a matrix holds, times the focal length; a model of a few steps of its grid stays small.
+        let size = Mat4::scaling([larger.min(I16F16::lit("2048")); 3])?;
         let turned = Mat4::rotation_x(PITCH.sin_cos()).times(&Mat4::rotation_y(turn.sin_cos()))?;
         Ok(turned.times(&size)?.times(&Mat4::translation(middle))?)
     }
