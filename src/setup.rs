@@ -29,6 +29,8 @@ mod tiny;
 pub(crate) use exact::first_centres;
 pub(crate) use exact::{Anchored, determinant, outline};
 pub(crate) use line::Segment;
+#[cfg(feature = "heapless")]
+pub(crate) use outline::rows_of;
 pub(crate) use outline::{Corner, Outline, Place, bounds_of, doubled_area, facing};
 pub(crate) use plane::{Plane, Slopes};
 #[cfg(test)]

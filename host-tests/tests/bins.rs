@@ -200,8 +200,8 @@ fn bands_from_bins_are_the_frame_in_quick8() {
     bands_are_the_frame::<Quick<8>, Packed<PerspectiveEvery<8>>>(63);
 }
 
-/// Whether a part of a triangle has a point on the line through the centres of a row, between those of the first and the last
-/// column, by exact rationals. The part behind has its edge functions negated.
+/// Whether a part of a triangle has a point on the line through the centres of a row, between the sides of the first and the
+/// last column, by exact rationals. The part behind has its edge functions negated.
 fn reaches(points: [[i64; 3]; 3], behind: bool, columns: (i32, i32), row: u32) -> bool {
     let [p, q, r] = points.map(|v| v.map(i128::from));
     let cross = |a: [i128; 3], b: [i128; 3]| {
@@ -213,8 +213,8 @@ fn reaches(points: [[i64; 3]; 3], behind: bool, columns: (i32, i32), row: u32) -
     let sign = if behind { -determinant.signum() } else { determinant.signum() };
     let whole = |v: i128| BigRational::from_integer(v.into());
     // x in [low, high] such that each sign (a x + b (row + 1/2) + c) is 0 or more.
-    let mut low = whole(2 * i128::from(columns.0) + 1) / whole(2);
-    let mut high = whole(2 * i128::from(columns.1) - 1) / whole(2);
+    let mut low = whole(columns.0.into());
+    let mut high = whole(columns.1.into());
     for [a, b, c] in edges {
         let (a, rest) = (whole(sign * a), whole(sign * (b * (2 * i128::from(row) + 1) + 2 * c)));
         if a.is_zero() {

@@ -4,9 +4,9 @@ use super::{Frame, Outcome, rejected};
 use crate::depth::DepthTest;
 use crate::framebuffer::Target;
 use crate::interpolation::{Correction, Interpolates};
-use crate::setup::{Facing, Part, Setup, Tier, bounds_of, determinant, first_centres};
+use crate::setup::{Facing, Part, Setup, Tier, bounds_of, determinant, first_centres, rows_of};
 use crate::traversal::{ClipWalk, Spans, edges};
-use crate::vertex::{Outside, Rect, Vertex};
+use crate::vertex::{Outside, Vertex};
 
 /// Rows, from the first to before the second; none where it is not smaller.
 pub(crate) type RowRange = (i32, i32);
@@ -68,43 +68,41 @@ where
                 return Reach::Unknown;
             }
         }
+        let scissor = self.viewport.scissor;
+        // No vertex is beyond a side, and the scissor has all columns.
+        let between =
+            any.0 & Outside::SIDES == 0 && scissor.x0 == 0 && scissor.x1 == self.viewport.width;
         let whole = if T::PROJECTS && all & Outside::PROJECTED != 0 {
             match self.oriented(vertices) {
+                Ok((corners, _)) if between => {
+                    return self.within(rows_of(&corners, T::SUBPIXEL_BITS));
+                }
                 Ok((corners, _)) => bounds_of(&corners, T::SUBPIXEL_BITS),
                 Err(outcome) => return Reach::Nothing(outcome),
             }
         } else {
-            match self.homogeneous_box(vertices, any) {
-                Ok(Some(whole)) => whole,
-                Ok(None) => return Reach::Unknown,
-                Err(outcome) => return Reach::Nothing(outcome),
+            let positions = T::homogeneous(vertices.map(|v| &v.position));
+            let Some(positions) = positions.filter(|_| any.0 & Outside::BOUNDS == 0) else {
+                return Reach::Unknown;
+            };
+            if let Some(outcome) = self.turned_away(Facing::of(determinant(positions))) {
+                return Reach::Nothing(outcome);
             }
+            first_centres(positions)
         };
-        let scissor = self.viewport.scissor;
-        if whole.x0 <= scissor.x0 || whole.x1 >= scissor.x1 {
-            return Reach::Unknown;
-        }
-        let (first, end) = (whole.y0.max(scissor.y0), whole.y1.min(scissor.y1));
-        if first < end && whole.x0 < whole.x1 {
-            Reach::Rows((first, end))
+        if between || (scissor.x0 < whole.x0 && whole.x1 < scissor.x1) {
+            self.within((whole.y0, whole.y1))
         } else {
-            Reach::Nothing(Outcome::OffScreen)
+            Reach::Unknown
         }
     }
 
-    /// The box of a triangle on the exact tier's grid, where it is on the screen; or why it is not drawn.
-    #[inline(never)]
-    fn homogeneous_box<const N: usize>(
-        &self,
-        vertices: [&Vertex<T, N, P>; 3],
-        any: Outside,
-    ) -> Result<Option<Rect>, Outcome> {
-        let positions = T::homogeneous(vertices.map(|v| &v.position));
-        let Some(positions) = positions.filter(|_| any.0 & Outside::BOUNDS == 0) else {
-            return Ok(None);
-        };
-        self.turned_away(Facing::of(determinant(positions)))
-            .map_or(Ok(Some(first_centres(positions))), Err)
+    /// What the scissor has of rows that a triangle reaches.
+    #[inline(always)]
+    fn within(&self, (first, end): RowRange) -> Reach {
+        let scissor = self.viewport.scissor;
+        let (first, end) = (first.max(scissor.y0), end.min(scissor.y1));
+        if first < end { Reach::Rows((first, end)) } else { Reach::Nothing(Outcome::OffScreen) }
     }
 
     /// The rows of any triangle: the first and the last that it covers a pixel of, found by following its edges and the planes

@@ -80,12 +80,21 @@ pub(crate) const fn first_centre(v: i32, bits: u32) -> i32 {
 /// The box of the pixel centres that a triangle of corners in subpixels may cover.
 #[inline]
 pub(crate) fn bounds_of([p, q, r]: &[[i32; 2]; 3], bits: u32) -> Rect {
-    Rect {
-        x0: first_centre(p[0].min(q[0]).min(r[0]), bits),
-        y0: first_centre(p[1].min(q[1]).min(r[1]), bits),
-        x1: first_centre(p[0].max(q[0]).max(r[0]), bits),
-        y1: first_centre(p[1].max(q[1]).max(r[1]), bits),
-    }
+    let ((x0, x1), (y0, y1)) = (extent([p[0], q[0], r[0]], bits), extent([p[1], q[1], r[1]], bits));
+    Rect { x0, y0, x1, y1 }
+}
+
+/// The rows of that box.
+#[cfg(feature = "heapless")]
+#[inline]
+pub(crate) fn rows_of([p, q, r]: &[[i32; 2]; 3], bits: u32) -> (i32, i32) {
+    extent([p[1], q[1], r[1]], bits)
+}
+
+/// The first centre at or beyond the least of three coordinates, and beyond the largest.
+#[inline]
+fn extent([p, q, r]: [i32; 3], bits: u32) -> (i32, i32) {
+    (first_centre(p.min(q).min(r), bits), first_centre(p.max(q).max(r), bits))
 }
 
 impl<C: Place> Outline<C> {

@@ -3,9 +3,6 @@
 /// What unused stack is painted with.
 const PAINT: u32 = 0xc0de_57ac;
 
-/// Words below the stack pointer that are painted, 32 kB: more than any workload takes, less than the machines have.
-const WORDS: usize = 8192;
-
 /// Words just below the stack pointer that are left to the painting itself, which has no calls in it.
 const SPARED: usize = 16;
 
@@ -14,17 +11,19 @@ const SPARED: usize = 16;
 pub struct Painted {
     /// The stack pointer when it was painted.
     top: *mut u32,
+    words: usize,
 }
 
-/// Paints the stack below the caller's frame.
+/// Paints some words of the stack below the caller's frame: more than is looked for takes, less than there are above the
+/// static variables.
 #[inline(always)]
-pub fn paint() -> Painted {
+pub fn paint(words: usize) -> Painted {
     let top = pointer();
-    for word in SPARED..WORDS {
-        // SAFETY: below the stack pointer nothing lives, interrupts are off, and the machines have more RAM than this.
+    for word in SPARED..words {
+        // SAFETY: below the stack pointer nothing lives, interrupts are off, and there are so many words by contract.
         unsafe { top.wrapping_sub(word).write_volatile(PAINT) };
     }
-    Painted { top }
+    Painted { top, words }
 }
 
 impl Painted {
@@ -35,7 +34,7 @@ impl Painted {
         // SAFETY: as in `paint`.
         let is_painted =
             |word: usize| unsafe { self.top.wrapping_sub(word).read_volatile() } == PAINT;
-        let mut deepest = WORDS - 1;
+        let mut deepest = self.words - 1;
         if !is_painted(deepest) {
             return None;
         }

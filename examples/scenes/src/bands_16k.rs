@@ -27,7 +27,7 @@ const BINNED: usize = 540;
 const CACHED: usize = 112;
 
 /// Focal length in half picture heights.
-const FOCAL: I16F16 = I16F16::lit("3.125");
+const FOCAL: I16F16 = I16F16::lit("2.625");
 
 /// All that the picture is drawn with.
 #[derive(Debug)]

@@ -3,8 +3,12 @@
 use super::screen::Screen;
 use super::{oled, pico};
 use crate::cross::{MACHINES, Machine, build, emulate};
+use crate::measure::firmware::words;
 use crate::measure::size::{build_size, sections};
+use hither_scenes::bands_16k::{Memory, draw};
+use hither_scenes::checksum::Checksum;
 use hither_scenes::pictures::{WORDS, draw_all};
+use hither_scenes::spinning_teapot::Moment;
 use std::path::Path;
 
 /// A program of a board, and how it is checked.
@@ -54,6 +58,7 @@ pub fn emulated() -> Vec<Case> {
         .map(|machine| Case::new(format!("emulator-{}", machine.isa), || pictures(machine, &[])))
         .collect();
     cases.push(Case::new("emulator-microbit", || pictures(&MICROBIT, &["--features", "microbit"])));
+    cases.push(Case::new("emulator-bands_16k", bands_16k));
     for board in oled::BOARDS {
         cases.push(Case::new(board.name, move || oled_board(&board)));
     }
@@ -142,6 +147,39 @@ fn pictures(machine: &Machine, arguments: &[&str]) -> Result<Passed, String> {
     } else {
         Err(format!("it drew {printed:?}, the host {expected:?}"))
     }
+}
+
+/// The micro:bit's RAM, in bytes.
+const RAM_16K: u64 = 16 << 10;
+
+/// The teapot at 240 x 240 in 16 kB of RAM, of which the linker's map has the variables and the program tells the stack.
+fn bands_16k() -> Result<Passed, String> {
+    let program = build("emulator", "bands_16k", MICROBIT.target, &["--features", "microbit"])?;
+    let printed = emulate(&MICROBIT, &program)?;
+    let (mut memory, mut deepest) = (Memory::new(), 0);
+    let mut frames = 0;
+    for line in printed.lines() {
+        let fault = || format!("it printed {line:?}");
+        let [number, sum, stack] = words(line).ok_or_else(fault)?;
+        let number = number.parse().map_err(|_| fault())?;
+        let mut expected = Checksum::new();
+        draw(&mut memory, Moment { number, frames: 64 }, |_, words| {
+            expected = expected.with_words(words);
+        })
+        .map_err(|error| error.to_string())?;
+        if format!("{:08x}", expected.value()) != sum {
+            return Err(format!("it drew frame {number} as {sum}, the host as {expected:08x?}"));
+        }
+        deepest = deepest.max(stack.parse::<u64>().map_err(|_| fault())?);
+        frames += 1;
+    }
+    let passed = measured(&program)?;
+    let ram = passed.ram.unwrap_or(0);
+    if frames != 3 || ram + deepest > RAM_16K {
+        return Err(format!("{frames} frames of 3 in {ram} bytes and {deepest} of stack"));
+    }
+    let what = format!("{frames} frames equal to the host's, {deepest} bytes of stack");
+    Ok(Passed { what, ..passed })
 }
 
 /// Flash and RAM of a program.

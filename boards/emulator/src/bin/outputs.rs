@@ -1,14 +1,21 @@
-//! Draws W6 whole and in bands, in every tier, and prints a line each: output, workload, tier, bytes of RAM, clock ticks, checksum.
+//! Draws W6 whole and in bands, and W1 and W2 through a draw target of embedded-graphics, in every tier, and prints a line each:
+//! output, workload, tier, bytes of RAM, clock ticks, checksum.
 //!
 //! The first lines are `spin`, as those of `measure` are.
 #![no_std]
 #![no_main]
 
 use emulator::clock;
-use hither::{Bins, Exact, FaceColors, Gouraud, Hither, Interpolates, Mat4, Quick, Vertex, VertexStage};
+use hither::{
+    Bins, Cull, Exact, FaceColors, Flat, Frame, Framebuffer, Gouraud, Hither, Interpolates, Mat4,
+    OnDisplay, Quick, Rgb565, Vertex, VertexStage,
+};
+use hither_scenes::SceneError;
+use hither_scenes::checksum::Checksum;
 use hither_scenes::torus;
 use hither_scenes::workloads::{
-    BINNED, Buffers, CACHE, Colors, Output, PIXELS, Preset, Store, draw_output,
+    BINNED, Buffers, CACHE, Colors, HITHER, Output, PIXELS, Preset, SIDE, Store, TRIANGLES,
+    Workload, corners, draw_output, face_color,
 };
 use semihosting::println;
 use static_cell::ConstStaticCell;
@@ -21,6 +28,7 @@ static BINS: ConstStaticCell<Bins<BINNED>> = ConstStaticCell::new(Bins::new());
 struct Caches<T: Preset> {
     bare: ConstStaticCell<[Vertex<T>; CACHE]>,
     colored: ConstStaticCell<[Vertex<T, 3>; CACHE]>,
+    triangles: ConstStaticCell<[[Vertex<T>; 3]; TRIANGLES]>,
 }
 
 impl<T: Preset> Caches<T> {
@@ -28,6 +36,7 @@ impl<T: Preset> Caches<T> {
         Self {
             bare: ConstStaticCell::new([Vertex::EMPTY; CACHE]),
             colored: ConstStaticCell::new([Vertex::EMPTY; CACHE]),
+            triangles: ConstStaticCell::new([[Vertex::EMPTY; 3]; TRIANGLES]),
         }
     }
 }
@@ -61,6 +70,63 @@ fn measure<T: Preset>(
     }
     let mut store = Store { cache: caches.colored.take().as_mut_slice(), bins };
     count::<T, _, 3>(buffers, &Gouraud, &mut store, overhead);
+    let triangles = caches.triangles.take();
+    for workload in [Workload::W1, Workload::W2] {
+        let ram = 2 * PIXELS;
+        match on_display::<T>(workload, buffers.color, triangles) {
+            Ok((ticks, sum)) => {
+                let (name, ticks) = (workload.name(), ticks.wrapping_sub(overhead));
+                println!("display {name} {} {ram} {ticks} {sum:08x}", T::NAME);
+            }
+            Err(error) => println!("display {} {}: {error}", workload.name(), T::NAME),
+        }
+    }
+}
+
+/// Draws W1 or W2 through a draw target, which is a framebuffer as embedded-graphics sees it; ticks and checksum.
+fn on_display<T: Preset>(
+    workload: Workload,
+    color: &mut [u16; PIXELS],
+    triangles: &mut [[Vertex<T>; 3]; TRIANGLES],
+) -> Result<(u32, u32), SceneError> {
+    color.fill(0);
+    let mut display = Framebuffer::<Rgb565>::try_new(color, SIDE, SIDE)?;
+    let mut frame = Frame::new(OnDisplay::new(&mut display))?
+        .with_tier(T::default())
+        .with_correction(T::Correction::default())
+        .with_hither(HITHER)
+        .with_cull(Cull::Back);
+    let mut count = 0;
+    corners(workload, |number, corners| {
+        if let Some(triangle) = triangles.get_mut(number) {
+            for (vertex, corner) in triangle.iter_mut().zip(corners) {
+                *vertex = frame.snap(&corner.clip(), []);
+            }
+            count = number + 1;
+        }
+    });
+    let start = clock::now();
+    draw_flat(&mut frame, triangles.get(..count).unwrap_or_default());
+    let Ok(()) = frame.finish();
+    let ticks = clock::now().wrapping_sub(start);
+    Ok((ticks, Checksum::new().with_words(color).value()))
+}
+
+/// The counted part.
+#[inline(never)]
+fn draw_flat<T: Preset>(
+    frame: &mut Frame<
+        OnDisplay<'_, Framebuffer<'_, Rgb565>>,
+        hither::NoDepth,
+        Hither,
+        T,
+        T::Correction,
+    >,
+    triangles: &[[Vertex<T>; 3]],
+) {
+    for (number, [a, b, c]) in triangles.iter().enumerate() {
+        frame.draw_snapped([a, b, c], &Flat(face_color(number)));
+    }
 }
 
 /// Draws every output in some colours.

@@ -10,10 +10,13 @@ use emulator::stack;
 use panic_never as _;
 use semihosting::io::{Write, stdout};
 
+/// Words of stack that are painted, 32 kB: more than any workload takes.
+const STACK: usize = 8192;
+
 #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
 #[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
 fn main() -> ! {
-    let painted = stack::paint();
+    let painted = stack::paint(STACK);
     let drawn = work();
     let deepest = painted.deepest();
     let printed = deepest.filter(|_| drawn).is_some_and(print);
