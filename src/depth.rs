@@ -6,6 +6,9 @@
 
 mod line;
 mod plane;
+mod test_only;
+
+pub use test_only::TestOnly;
 
 pub use line::DepthBias;
 pub(crate) use line::DepthLine;

@@ -1,6 +1,7 @@
 //! The front door: a frame that triangles and meshes are drawn into, and what became of each.
 
 mod bent;
+mod blended;
 mod divided;
 mod flat;
 mod frame;

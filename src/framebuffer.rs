@@ -294,6 +294,11 @@ impl<'a, F: PixelFormat> Framebuffer<'a, F> {
         self.words
     }
 
+    /// The same buffer for a while, to be drawn into in another way.
+    pub(crate) fn reborrow(&mut self) -> Framebuffer<'_, F> {
+        Framebuffer { words: self.words, width: self.width, height: self.height }
+    }
+
     /// The words of row `y` from column `x` on, to the end of the buffer.
     #[inline]
     pub(crate) fn from(&mut self, x: usize, y: usize) -> &mut [F::Word] {

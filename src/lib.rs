@@ -91,6 +91,7 @@ extern crate std;
 mod band;
 #[cfg(feature = "heapless")]
 mod bin;
+mod blend;
 mod buffer;
 mod clip;
 mod color;
@@ -117,6 +118,7 @@ mod vertex;
 pub use band::{Band, Bands, FrameError, SwapChain, Transfer};
 #[cfg(feature = "heapless")]
 pub use bin::Bins;
+pub use blend::{Add, Additive, Alpha, Blended, Merge, Mix, Over, Translucent};
 pub use buffer::BufferSize;
 pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 #[doc(hidden)]
@@ -124,6 +126,7 @@ pub use color::Lane;
 pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};
 pub use depth::{Always, Compare, DepthBias, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
 pub use dirty::Dirty;
+pub use depth::{Always, Compare, DepthBuffer, DepthTest, DepthWord, Less, NoDepth, TestOnly};
 pub use dither::Dithered;
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 #[cfg(feature = "embedded-graphics")]

@@ -20,6 +20,7 @@ const ORDER: [&str; 22] = [
     "framebuffer",
     "dirty",
     "fragment",
+    "blend",
     "dither",
     "mesh",
     "preset",

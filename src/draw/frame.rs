@@ -64,7 +64,7 @@ pub struct Frame<
     pub(super) window: Rect,
     /// The same where the target is one for [`SmallRows`](crate::traversal::SmallRows); otherwise empty.
     pub(super) small_window: Rect,
-    knobs: PhantomData<(T, I)>,
+    pub(super) knobs: PhantomData<(T, I)>,
 }
 
 /// No window: the target has not been asked for its size yet.
@@ -139,7 +139,7 @@ impl<C: Target, T, I, const P: usize> Frame<C, NoDepth, Hither, T, I, P> {
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
     /// The same parts under other types.
-    fn rebuild<D2, W2, T2, I2>(
+    pub(super) fn rebuild<D2, W2, T2, I2>(
         self,
         change: impl FnOnce(D, W) -> (D2, W2),
     ) -> Frame<C, D2, W2, T2, I2, P> {
