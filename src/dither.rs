@@ -8,6 +8,7 @@
 use crate::color::{Lane, PixelFormat, Rgb565, Rgb888};
 use crate::fragment::{Fragment, Gouraud, Sample, Textured};
 use crate::math::unsigned;
+use crate::texture::{Address, Sampling};
 use fixed::types::I16F16;
 
 /// A shader whose colours are dithered to RGB565: [`Gouraud`], or [`Textured`] with texels of 24 bits.
@@ -70,7 +71,12 @@ impl Fragment<Rgb565, 3> for Dithered<Gouraud> {
     }
 }
 
-impl<F: PixelFormat<Color = Rgb888>> Fragment<Rgb565, 2> for Dithered<Textured<'_, F>> {
+impl<F, A, Q> Fragment<Rgb565, 2> for Dithered<Textured<'_, F, A, Q>>
+where
+    F: PixelFormat<Color = Rgb888>,
+    A: Address,
+    Q: Sampling<F>,
+{
     #[inline]
     fn shade(&self, sample: Sample<2>) -> Rgb565 {
         let Rgb888(texel) = self.0.shade(sample);

@@ -333,7 +333,7 @@ where
             Ok(oriented) => oriented,
             Err(outcome) => return Some(outcome),
         };
-        if F::UNIFORM && D::BITS == 0 {
+        if F::UNIFORM && !F::DISCARDS && D::BITS == 0 {
             return Some(self.fill_projected(&Outline::new(&corners, area > 0), fragment));
         }
         if D::BITS > 0 && Tiny::may_have(area, T::SUBPIXEL_BITS) {

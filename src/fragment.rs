@@ -1,7 +1,7 @@
 //! Fragments: from interpolated varyings to a colour.
 
 use crate::color::{FromUnit, Lane, PixelFormat};
-use crate::texture::Texture;
+use crate::texture::{Address, Nearest, Repeat, Sampling, Texture};
 use fixed::types::I16F16;
 
 /// What is known of one covered pixel when it is shaded.
@@ -45,6 +45,17 @@ pub trait Fragment<C: Copy, const N: usize>: Copy {
 
     /// The colour at a pixel.
     fn shade(&self, sample: Sample<N>) -> C;
+
+    /// Whether it leaves pixels out, as [`Keyed`] does: then [`shade_or_discard`](Self::shade_or_discard) is asked, no
+    /// triangle has one colour, and depth is stored after shading where there is a colour, not before.
+    const DISCARDS: bool = false;
+
+    /// The colour at a pixel; `None` where the pixel keeps what it shows, and its depth. Only `None` where
+    /// [`DISCARDS`](Self::DISCARDS).
+    #[inline]
+    fn shade_or_discard(&self, sample: Sample<N>) -> Option<C> {
+        Some(self.shade(sample))
+    }
 
     /// Where varyings in `[0, 1]` lie in a word that is stepped as one, if that is worth while.
     #[doc(hidden)]
@@ -134,38 +145,106 @@ impl<C: FromUnit> Fragment<C, 3> for Gouraud {
     }
 }
 
-/// Colour from a texture, nearest texel, by two varyings `u` and `v`: see [`Texture`].
+/// Colour from a texture, sampled as it says, by two varyings `u` and `v`: see [`Texture`].
 ///
 /// With [`Packed`](crate::Packed) a coordinate is stepped by whole 2^-16: up to `N` of those off at the end of a
 /// straight piece for an `N` below 8, up to 64 along a line that bends, of which 32 are at its end, and up to 16 where the whole
 /// triangle is straight. A texel of a side of 1024 is 64. Beside a whole number, as at the sides of a texture that is shown
 /// once, a pixel of a triangle's edge may so be one of the texture's other side.
 #[derive(Debug)]
-pub struct Textured<'a, F: PixelFormat>(pub Texture<'a, F>);
+pub struct Textured<'a, F: PixelFormat, A = Repeat, Q = Nearest>(pub Texture<'a, F, A, Q>);
 
-impl<F: PixelFormat> Clone for Textured<'_, F> {
+impl<F: PixelFormat, A, Q> Clone for Textured<'_, F, A, Q> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: PixelFormat> Copy for Textured<'_, F> {}
+impl<F: PixelFormat, A, Q> Copy for Textured<'_, F, A, Q> {}
 
-impl<F: PixelFormat> Fragment<F::Color, 2> for Textured<'_, F>
+impl<F, A, Q> Fragment<F::Color, 2> for Textured<'_, F, A, Q>
 where
-    F::Color: Default,
+    F: PixelFormat<Color: Default>,
+    A: Address,
+    Q: Sampling<F>,
 {
     #[inline]
     fn shade(&self, sample: Sample<2>) -> F::Color {
         let [u, v] = sample.varyings;
-        self.0.nearest(u, v).unwrap_or_default()
+        self.0.sample(u, v).unwrap_or_default()
     }
 
-    const WRAPS: bool = true;
+    const WRAPS: bool = A::WRAPS;
 
     #[inline]
     fn shade_lanes(&self, word: u32, _: i32, _: i32) -> Option<F::Color> {
-        self.0.nearest_of_fractions(word)
+        Q::at_fractions(&self.0, word)
+    }
+}
+
+/// A shader whose pixels of one colour, the key, are left out: they keep what they show, and their depth. For cut-outs: leaves,
+/// fences, sprites.
+///
+/// A comparison a pixel, of colours as they are drawn: a texture in a format of the target's colour, sampled nearest. A
+/// filtered one is mixed with the key at the cut's edge, and only what is all key is left out.
+///
+/// ```
+/// use hither::{ClipVertex, Frame, Framebuffer, Gray8, Hither, I16F16, Keyed, Texture, Textured};
+///
+/// let texels = b"#.#..#.##.#..#.#";
+/// let texture = Texture::<Gray8>::try_new(texels, 4, 4)?;
+/// let mut words = [b' '; 64];
+/// let frame = Frame::new(Framebuffer::<Gray8>::try_new(&mut words, 8, 8)?)?;
+/// let mut frame = frame.with_hither(Hither::new(I16F16::ONE)?);
+/// let corner = |x: f32, y: f32| {
+///     let [u, v] = [(x + 1.0) / 2.0, (1.0 - y) / 2.0].map(I16F16::from_num);
+///     let [x, y] = [x, y].map(I16F16::from_num);
+///     (ClipVertex::new(x, y, I16F16::ZERO, I16F16::ONE), [u, v])
+/// };
+/// let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(-1.0, 1.0)];
+/// frame.draw_triangle(corners, &Keyed(Textured(texture), Gray8(b'.')));
+/// let rows: Vec<_> = words.chunks(8).map(|row| core::str::from_utf8(row).unwrap()).collect();
+/// assert_eq!(rows, [
+///     "        ",
+///     "#       ",
+///     "        ",
+///     "  ##    ",
+///     "##  #   ",
+///     "##  ##  ",
+///     "  ##  # ",
+///     "  ##  ##",
+/// ]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Keyed<S, C>(pub S, pub C);
+
+impl<C: Copy + PartialEq, S: Fragment<C, N>, const N: usize> Fragment<C, N> for Keyed<S, C> {
+    const UNIFORM: bool = false;
+    const TOLERANCE: u32 = S::TOLERANCE;
+    const DISCARDS: bool = true;
+    const LANES: Option<[Lane; N]> = S::LANES;
+    const WRAPS: bool = S::WRAPS;
+    const DITHERED: bool = S::DITHERED;
+
+    #[inline]
+    fn shade(&self, sample: Sample<N>) -> C {
+        self.0.shade(sample)
+    }
+
+    #[inline]
+    fn shade_or_discard(&self, sample: Sample<N>) -> Option<C> {
+        self.0.shade_or_discard(sample).filter(|color| *color != self.1)
+    }
+
+    #[inline]
+    fn shade_lanes(&self, word: u32, x: i32, y: i32) -> Option<C> {
+        self.0.shade_lanes(word, x, y).filter(|color| *color != self.1)
+    }
+
+    #[inline]
+    fn for_face(self, index: usize) -> Self {
+        Self(self.0.for_face(index), self.1)
     }
 }
 

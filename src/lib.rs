@@ -133,7 +133,7 @@ pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 pub use eg::{AsPixelColor, DisplayColor, OnBand, OnDisplay};
 pub use fixed;
 pub use fixed::types::I16F16;
-pub use fragment::{FaceColors, Flat, Fragment, Gouraud, Sample, Textured};
+pub use fragment::{FaceColors, Flat, Fragment, Gouraud, Keyed, Sample, Textured};
 pub use framebuffer::{Framebuffer, Target};
 pub use interpolation::{
     Affine, Correction, DividedBy, Division, Float, Interpolates, Newton, Packed, Perspective,
@@ -146,7 +146,9 @@ pub use plan::{
 };
 pub use preset::{Balance, Fidelity, Preset, Speed};
 pub use setup::{Cull, Facing, Tier};
-pub use texture::{Texture, TextureSize};
+pub use texture::{
+    Address, Bilinear, Clamp, Filter, Nearest, Repeat, Sampling, Texture, TextureSize,
+};
 #[cfg(feature = "micromath")]
 pub use transform::FloatError;
 pub use transform::{Angle, Mat4, MatrixError, ModelPosition, ShortMat4, SinCos, Vec3};

@@ -17,6 +17,7 @@ pub struct Additive<S>(pub S);
 impl<C: Copy, S: Fragment<C, N>, const N: usize> Fragment<Alpha<C>, N> for Translucent<S> {
     const UNIFORM: bool = S::UNIFORM;
     const TOLERANCE: u32 = S::TOLERANCE;
+    const DISCARDS: bool = S::DISCARDS;
     const LANES: Option<[Lane; N]> = S::LANES;
     const WRAPS: bool = S::WRAPS;
     const DITHERED: bool = S::DITHERED;
@@ -24,6 +25,11 @@ impl<C: Copy, S: Fragment<C, N>, const N: usize> Fragment<Alpha<C>, N> for Trans
     #[inline]
     fn shade(&self, sample: Sample<N>) -> Alpha<C> {
         Alpha { color: self.0.shade(sample), alpha: self.1 }
+    }
+
+    #[inline]
+    fn shade_or_discard(&self, sample: Sample<N>) -> Option<Alpha<C>> {
+        Some(Alpha { color: self.0.shade_or_discard(sample)?, alpha: self.1 })
     }
 
     #[inline]
@@ -40,6 +46,7 @@ impl<C: Copy, S: Fragment<C, N>, const N: usize> Fragment<Alpha<C>, N> for Trans
 impl<C: Copy, S: Fragment<C, N>, const N: usize> Fragment<Add<C>, N> for Additive<S> {
     const UNIFORM: bool = S::UNIFORM;
     const TOLERANCE: u32 = S::TOLERANCE;
+    const DISCARDS: bool = S::DISCARDS;
     const LANES: Option<[Lane; N]> = S::LANES;
     const WRAPS: bool = S::WRAPS;
     const DITHERED: bool = S::DITHERED;
@@ -47,6 +54,11 @@ impl<C: Copy, S: Fragment<C, N>, const N: usize> Fragment<Add<C>, N> for Additiv
     #[inline]
     fn shade(&self, sample: Sample<N>) -> Add<C> {
         Add(self.0.shade(sample))
+    }
+
+    #[inline]
+    fn shade_or_discard(&self, sample: Sample<N>) -> Option<Add<C>> {
+        self.0.shade_or_discard(sample).map(Add)
     }
 
     #[inline]

@@ -3,7 +3,7 @@
 use super::Frame;
 use super::lanes::Bent;
 use super::projected::Rows;
-use super::shade::Pixels;
+use super::shade::{Pixels, tested};
 use crate::depth::DepthTest;
 use crate::fragment::Fragment;
 use crate::framebuffer::{BEND, Pen, RunOf, Runs, Target};
@@ -144,8 +144,9 @@ where
 
     #[inline(always)]
     fn color(&mut self, fragment: &F, stored: &mut D::Word) -> Option<C> {
-        let passes = D::passes(self.depth[0], stored);
-        let color = if passes { self.block.color(fragment, 0, 0) } else { None };
+        let color = tested::<D, F, C, N>(self.depth[0], stored, |passes| {
+            if passes { self.block.color(fragment, 0, 0) } else { None }
+        });
         self.depth[0] = self.depth[0].wrapping_add(self.depth[1]);
         self.block.step();
         color

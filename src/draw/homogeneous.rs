@@ -49,7 +49,7 @@ where
             return None;
         }
         let outline = outline(positions, facing?, &self.viewport)?;
-        if F::UNIFORM && D::BITS == 0 && N == 0 {
+        if F::UNIFORM && !F::DISCARDS && D::BITS == 0 && N == 0 {
             let whole = outline.bounds();
             return Some(self.fill_within::<Stepped, F, N>(&outline, whole, fragment));
         }

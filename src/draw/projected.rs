@@ -3,7 +3,7 @@
 use super::Frame;
 use super::divided::Separate;
 use super::lanes::{self, Lanes, Word};
-use super::shade::{NoVaryings, Pixels};
+use super::shade::{NoVaryings, Pixels, tested};
 use super::shape::Shape;
 use crate::depth::{DepthTest, projected};
 use crate::fragment::Fragment;
@@ -313,9 +313,10 @@ where
                     plane.x
                 };
             }
-            let passes = D::passes(z, stored);
-            z = z.wrapping_add(step);
-            pixel(passes)
+            tested::<D, F, _, N>(z, stored, |passes| {
+                z = z.wrapping_add(step);
+                pixel(passes)
+            })
         };
         self.depth.run(at.2, length, move |depths| match B::AT_ONCE {
             4 if !SHORT => target.write_each::<_, 4>(at, depths, pixel),

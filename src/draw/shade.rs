@@ -69,7 +69,7 @@ where
     ) where
         F: Fragment<C::Color, N>,
     {
-        if F::UNIFORM && D::BITS == 0 && N == 0 {
+        if F::UNIFORM && !F::DISCARDS && D::BITS == 0 && N == 0 {
             self.fill(span, shading);
             return;
         }
@@ -185,8 +185,8 @@ where
         let (mut running, step) = depth.running();
         let mut x = x0;
         let mut pixel = move |passes: bool| {
-            let color =
-                passes.then(|| fragment.shade(Sample { x, y, varyings: varyings.varyings() }));
+            let sample = || Sample { x, y, varyings: varyings.varyings() };
+            let color = if passes { fragment.shade_or_discard(sample()) } else { None };
             varyings.step();
             x += 1;
             color
@@ -200,12 +200,34 @@ where
         let target = &mut self.target;
         self.depth.run(at, length, move |depths| {
             target.write_each::<_, 1>((first, row, at), depths, |stored, _| {
-                let passes = D::passes(running, stored);
-                running = running.wrapping_add(step);
-                pixel(passes)
+                tested::<D, F, _, N>(running, stored, |passes| {
+                    running = running.wrapping_add(step);
+                    pixel(passes)
+                })
             });
         });
     }
+}
+
+/// Tests a pixel's depth, and stores it where the test passes and the fragment stays: `color` is told of the first, and has
+/// none where either does not.
+#[inline(always)]
+pub(super) fn tested<D: DepthTest, F: Fragment<C, N>, C: Copy, const N: usize>(
+    running: u32,
+    stored: &mut D::Word,
+    color: impl FnOnce(bool) -> Option<C>,
+) -> Option<C> {
+    if !F::DISCARDS {
+        let passes = D::passes(running, stored);
+        return color(passes);
+    }
+    let mut depth = *stored;
+    let passes = D::passes(running, &mut depth);
+    let color = color(passes);
+    if color.is_some() {
+        *stored = depth;
+    }
+    color
 }
 
 /// How a run's pixels get their colours.
@@ -240,7 +262,7 @@ impl<C: Copy, F: Fragment<C, N>, R: Run<N>, const N: usize> Pixels<C, F, N> for 
 
     #[inline]
     fn color(&self, fragment: &F, x: i32, y: i32) -> Option<C> {
-        Some(fragment.shade(Sample { x, y, varyings: self.varyings() }))
+        fragment.shade_or_discard(Sample { x, y, varyings: self.varyings() })
     }
 
     #[inline]

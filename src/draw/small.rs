@@ -1,6 +1,7 @@
 //! Small triangles that are all in the window, without varyings: runs of pixels counted in the target's rows.
 
 use super::Frame;
+use super::shade::tested;
 use crate::depth::DepthTest;
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
@@ -64,12 +65,13 @@ where
                 z = z.wrapping_add(down);
                 let mut x = span.x0;
                 move |stored: &mut D::Word| {
-                    let passes = D::passes(z_here, stored);
-                    z_here = z_here.wrapping_add(depth.x);
-                    let varyings = [I16F16::ZERO; N];
-                    let color = passes.then(|| fragment.shade(Sample { x, y: span.y, varyings }));
-                    x += 1;
-                    color
+                    tested::<D, F, _, N>(z_here, stored, |passes| {
+                        z_here = z_here.wrapping_add(depth.x);
+                        let sample = Sample { x, y: span.y, varyings: [I16F16::ZERO; N] };
+                        let color = if passes { fragment.shade_or_discard(sample) } else { None };
+                        x += 1;
+                        color
+                    })
                 }
             });
         });

@@ -1,5 +1,6 @@
 //! Tiny triangles with depth that are all in the window, without varyings: pixel by pixel of their boxes.
 
+use super::shade::tested;
 use super::{Frame, Outcome};
 use crate::depth::{DepthTest, ranged};
 use crate::fragment::{Fragment, Sample};
@@ -59,7 +60,9 @@ where
                 let (column, row) = scan.place();
                 let (x, y) = (whole.x0 + column, whole.y0 + row);
                 let sample = Sample { x, y, varyings: [I16F16::ZERO; N] };
-                D::passes(scan.value(), stored).then(|| fragment.shade(sample))
+                tested::<D, F, _, N>(scan.value(), stored, |passes| {
+                    if passes { fragment.shade_or_discard(sample) } else { None }
+                })
             });
         });
         Some(Outcome::Drawn)
