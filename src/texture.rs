@@ -115,7 +115,7 @@ impl<'a, F: PixelFormat, A, Q> Texture<'a, F, A, Q> {
     }
 
     /// The colour at `(u, v)`, sampled as the texture is. There always is one.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn sample(&self, u: I16F16, v: I16F16) -> Option<F::Color>
     where

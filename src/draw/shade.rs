@@ -186,7 +186,7 @@ where
         let mut x = x0;
         let mut pixel = move |passes: bool| {
             let sample = || Sample { x, y, varyings: varyings.varyings() };
-            let color = if passes { fragment.shade_or_discard(sample()) } else { None };
+            let color = shaded::<F, _, N>(fragment, passes, sample);
             varyings.step();
             x += 1;
             color
@@ -200,10 +200,9 @@ where
         let target = &mut self.target;
         self.depth.run(at, length, move |depths| {
             target.write_each::<_, 1>((first, row, at), depths, |stored, _| {
-                tested::<D, F, _, N>(running, stored, |passes| {
-                    running = running.wrapping_add(step);
-                    pixel(passes)
-                })
+                let here = running;
+                running = running.wrapping_add(step);
+                tested::<D, F, _, N>(here, stored, &mut pixel)
             });
         });
     }
@@ -217,6 +216,7 @@ pub(super) fn tested<D: DepthTest, F: Fragment<C, N>, C: Copy, const N: usize>(
     stored: &mut D::Word,
     color: impl FnOnce(bool) -> Option<C>,
 ) -> Option<C> {
+    // Before shading where that does not matter: the loops over pixels are made for it.
     if !F::DISCARDS {
         let passes = D::passes(running, stored);
         return color(passes);
@@ -228,6 +228,19 @@ pub(super) fn tested<D: DepthTest, F: Fragment<C, N>, C: Copy, const N: usize>(
         *stored = depth;
     }
     color
+}
+
+/// The colour of a pixel that passes, if the fragment stays.
+#[inline(always)]
+pub(super) fn shaded<F: Fragment<C, N>, C: Copy, const N: usize>(
+    fragment: &F,
+    passes: bool,
+    sample: impl FnOnce() -> Sample<N>,
+) -> Option<C> {
+    if F::DISCARDS && passes {
+        return fragment.shade_or_discard(sample());
+    }
+    passes.then(|| fragment.shade(sample()))
 }
 
 /// How a run's pixels get their colours.
@@ -262,7 +275,11 @@ impl<C: Copy, F: Fragment<C, N>, R: Run<N>, const N: usize> Pixels<C, F, N> for 
 
     #[inline]
     fn color(&self, fragment: &F, x: i32, y: i32) -> Option<C> {
-        fragment.shade_or_discard(Sample { x, y, varyings: self.varyings() })
+        let sample = Sample { x, y, varyings: self.varyings() };
+        if F::DISCARDS {
+            return fragment.shade_or_discard(sample);
+        }
+        Some(fragment.shade(sample))
     }
 
     #[inline]

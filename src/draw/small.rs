@@ -1,7 +1,7 @@
 //! Small triangles that are all in the window, without varyings: runs of pixels counted in the target's rows.
 
 use super::Frame;
-use super::shade::tested;
+use super::shade::{shaded, tested};
 use crate::depth::DepthTest;
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::Target;
@@ -67,8 +67,8 @@ where
                 move |stored: &mut D::Word| {
                     tested::<D, F, _, N>(z_here, stored, |passes| {
                         z_here = z_here.wrapping_add(depth.x);
-                        let sample = Sample { x, y: span.y, varyings: [I16F16::ZERO; N] };
-                        let color = if passes { fragment.shade_or_discard(sample) } else { None };
+                        let sample = || Sample { x, y: span.y, varyings: [I16F16::ZERO; N] };
+                        let color = shaded::<F, _, N>(&fragment, passes, sample);
                         x += 1;
                         color
                     })

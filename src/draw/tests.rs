@@ -1,5 +1,8 @@
 //! Frames: what they count, and that any target shows the same picture.
 
+mod filtered;
+mod keyed;
+
 use super::*;
 use crate::color::Rgb565;
 use crate::depth::DepthBuffer;

@@ -1,6 +1,6 @@
 //! Tiny triangles with depth that are all in the window, without varyings: pixel by pixel of their boxes.
 
-use super::shade::tested;
+use super::shade::{shaded, tested};
 use super::{Frame, Outcome};
 use crate::depth::{DepthTest, ranged};
 use crate::fragment::{Fragment, Sample};
@@ -61,7 +61,7 @@ where
                 let (x, y) = (whole.x0 + column, whole.y0 + row);
                 let sample = Sample { x, y, varyings: [I16F16::ZERO; N] };
                 tested::<D, F, _, N>(scan.value(), stored, |passes| {
-                    if passes { fragment.shade_or_discard(sample) } else { None }
+                    shaded::<F, _, N>(&fragment, passes, || sample)
                 })
             });
         });

@@ -97,12 +97,12 @@ pub struct Nearest;
 pub struct Bilinear;
 
 impl<F: PixelFormat> Sampling<F> for Nearest {
-    #[inline]
+    #[inline(always)]
     fn at<A: Address>(texture: &Texture<'_, F, A, Self>, u: I16F16, v: I16F16) -> Option<F::Color> {
         texture.nearest(u, v)
     }
 
-    #[inline]
+    #[inline(always)]
     fn at_fractions<A: Address>(texture: &Texture<'_, F, A, Self>, vu: u32) -> Option<F::Color> {
         texture.nearest_of_fractions(vu)
     }
