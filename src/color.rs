@@ -4,6 +4,7 @@
 //! engine or an SPI driver as it is. The colour a shader computes is a plain value ([`Rgb565`],
 //! [`Rgb888`], [`Gray8`]); the format turns it into the word, once per pixel or once per fill.
 
+use crate::math::unsigned;
 use bytemuck::Pod;
 use fixed::types::I16F16;
 
@@ -83,6 +84,62 @@ impl Gray8 {
     pub const BLACK: Self = Self(0);
     /// Luminance 255.
     pub const WHITE: Self = Self(255);
+}
+
+/// 4-bit luminance, 0 black to 15 white, one `u8` a pixel whose upper bits are 0: [`pack_gray4`](crate::pack_gray4) makes two
+/// a byte of them where they are sent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Gray4(pub u8);
+
+impl Gray4 {
+    /// Luminance 0.
+    pub const BLACK: Self = Self(0);
+    /// Luminance 15.
+    pub const WHITE: Self = Self(15);
+}
+
+/// Dark or lit, 0 or 1, one `u8` a pixel: [`pack_rows`](crate::pack_rows) and [`pack_pages`](crate::pack_pages) make eight a
+/// byte of them where they are sent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Binary(pub u8);
+
+impl Binary {
+    /// Dark.
+    pub const BLACK: Self = Self(0);
+    /// Lit.
+    pub const WHITE: Self = Self(1);
+}
+
+/// A colour whose brightness is known: what [`Dithered`](crate::Dithered) makes few levels of.
+pub trait Luminance: Copy {
+    /// Luma in units of 2^-24, below 1: 0 for black, `1 - 2^-16` for white. By Rec. 601 for colours: 0.299 r + 0.587 g +
+    /// 0.114 b, weights as 77, 150 and 29 of 256.
+    #[must_use]
+    fn luma(self) -> u32;
+}
+
+impl Luminance for Rgb888 {
+    #[inline]
+    fn luma(self) -> u32 {
+        let [r, g, b] = [16, 8, 0].map(|shift| self.0 >> shift & 0xff);
+        (77 * r + 150 * g + 29 * b) * 257
+    }
+}
+
+impl Luminance for Gray8 {
+    #[inline]
+    fn luma(self) -> u32 {
+        u32::from(self.0) * (257 << 8)
+    }
+}
+
+/// The same of red, green and blue in `[0, 1]`, which are clamped.
+#[inline]
+pub(crate) fn luma([r, g, b]: [I16F16; 3]) -> u32 {
+    let unit = |channel: I16F16| unsigned(channel.to_bits().clamp(0, 0xffff));
+    77 * unit(r) + 150 * unit(g) + 29 * unit(b)
 }
 
 /// Rounds a channel in `[0, 1]` to `0 ..= max`, below 2^16; outside, it is clamped. To just below 1: 16 bits
@@ -167,6 +224,22 @@ impl FromUnit for Gray8 {
     }
 }
 
+/// The nearest of a few levels to a luma, as [`Luminance::luma`] has it.
+macro_rules! levels {
+    ($color:ident, $max:literal) => {
+        impl FromUnit for $color {
+            /// The level that is nearest to [`Luminance::luma`]'s.
+            #[inline]
+            fn from_unit(rgb: [I16F16; 3]) -> Self {
+                Self(((luma(rgb) * $max + (1 << 23)) >> 24) as u8)
+            }
+        }
+    };
+}
+
+levels!(Gray4, 15);
+levels!(Binary, 1);
+
 /// How a pixel is stored: the colour a shader gives, and the word that goes into memory.
 pub trait PixelFormat: Copy + core::fmt::Debug {
     /// What is drawn with.
@@ -223,6 +296,8 @@ macro_rules! native {
 native!(Rgb565, u16);
 native!(Rgb888, u32);
 native!(Gray8, u8);
+native!(Gray4, u8);
+native!(Binary, u8);
 
 #[cfg(test)]
 mod tests {
@@ -246,6 +321,39 @@ mod tests {
         assert_eq!(Rgb888::from_unit([I16F16::MIN, I16F16::MAX, low]), Rgb888::new(0, 255, 0));
         assert_eq!(Gray8::from_unit([high; 3]), Gray8::WHITE);
         assert_eq!(Gray8::from_unit([low; 3]), Gray8::BLACK);
+    }
+
+    #[test]
+    fn few_levels_are_the_nearest() {
+        for i in 0..=1 << 12 {
+            let [r, g, b] = [i << 4, (i * 77) % 65_537, 65_536 - (i << 4)];
+            let luma = f64::from(77 * r + 150 * g + 29 * b) / f64::from(1 << 24);
+            let unit = [r, g, b].map(I16F16::from_bits);
+            let off = (f64::from(Gray4::from_unit(unit).0) - 15.0 * luma).abs();
+            assert!(off < 0.5 + 1e-3, "{unit:?}");
+            let off = (f64::from(Binary::from_unit(unit).0) - luma).abs();
+            assert!(off < 0.5 + 1e-3, "{unit:?}");
+            // Of bytes as the channels they stand for.
+            let [r, g, b] = [i & 255, i >> 4, i % 251].map(|v| v as u8);
+            let exact =
+                (77.0 * f64::from(r) + 150.0 * f64::from(g) + 29.0 * f64::from(b)) / 65_280.0;
+            let got = f64::from(Rgb888::new(r, g, b).luma()) / f64::from(1 << 24);
+            assert!((got - exact).abs() < 2e-5);
+            let got = f64::from(Gray8(r).luma()) / f64::from(1 << 24);
+            assert!((got - f64::from(r) / 255.0).abs() < 2e-5);
+        }
+        for white in [I16F16::ONE, I16F16::MAX].map(|unit| [unit; 3]) {
+            assert_eq!(
+                (Gray4::from_unit(white), Binary::from_unit(white)),
+                (Gray4::WHITE, Binary::WHITE)
+            );
+        }
+        for black in [I16F16::ZERO, I16F16::MIN].map(|unit| [unit; 3]) {
+            assert_eq!(
+                (Gray4::from_unit(black), Binary::from_unit(black)),
+                (Gray4::BLACK, Binary::BLACK)
+            );
+        }
     }
 
     #[test]

@@ -5,21 +5,28 @@
 //! off by up to half of one; each pixel is off by up to 31/32. The pattern is Bayer's (1973): each
 //! threshold is as far as can be from those next to it.
 
-use crate::color::{Lane, PixelFormat, Rgb565, Rgb888};
+use crate::color::{Binary, Gray4, Lane, Luminance, PixelFormat, Rgb565, Rgb888, luma};
 use crate::fragment::{Fragment, Gouraud, Sample, Textured};
 use crate::math::unsigned;
 use crate::texture::{Address, Sampling};
 use fixed::types::I16F16;
 
-/// A shader whose colours are dithered to RGB565: [`Gouraud`], or [`Textured`] with texels of 24 bits.
+/// A shader whose colours are dithered: [`Gouraud`], or [`Textured`], to RGB565, or in luminance to [`Gray4`] or [`Binary`].
+/// Texels are [`Rgb888`], and for luminance [`Gray8`](crate::Gray8) too.
 ///
 /// ```
-/// use hither::{Dithered, Fragment, Gouraud, Rgb565, Textured, Rgb888};
+/// use hither::{Binary, Dithered, Fragment, Gouraud, Gray4, Gray8, Rgb565, Rgb888, Texture, Textured};
 ///
-/// fn takes<const N: usize>(_: impl Fragment<Rgb565, N>) {}
-/// takes(Dithered(Gouraud));
-/// # let texture = hither::Texture::<Rgb888>::try_new(&[0], 1, 1).unwrap();
-/// takes(Dithered(Textured(texture)));
+/// fn takes<C: Copy, const N: usize>(_: impl Fragment<C, N>) {}
+/// takes::<Rgb565, 3>(Dithered(Gouraud));
+/// takes::<Gray4, 3>(Dithered(Gouraud));
+/// takes::<Binary, 3>(Dithered(Gouraud));
+/// let texture = Texture::<Rgb888>::try_new(&[0], 1, 1)?;
+/// takes::<Rgb565, 2>(Dithered(Textured(texture)));
+/// takes::<Gray4, 2>(Dithered(Textured(texture)));
+/// let texture = Texture::<Gray8>::try_new(&[0], 1, 1)?;
+/// takes::<Binary, 2>(Dithered(Textured(texture.clamped().bilinear())));
+/// # Ok::<(), hither::TextureSize>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dithered<F>(pub F);
@@ -86,9 +93,46 @@ where
     }
 }
 
+/// A luma of 24 bits, below 1, as one of `max + 1` levels; `max` is at most 15.
+#[inline]
+fn level(luma: u32, max: u32, x: i32, y: i32) -> u8 {
+    ((luma * max + unsigned((1 << 23) + (offset(x, y) << 19))) >> 24) as u8
+}
+
+/// Dithering of luminance to a few levels: one product for a luma of three, and one for the level.
+macro_rules! to_levels {
+    ($color:ident, $max:literal) => {
+        impl Fragment<$color, 3> for Dithered<Gouraud> {
+            const TOLERANCE: u32 = <Gouraud as Fragment<$color, 3>>::TOLERANCE;
+            const DITHERED: bool = true;
+
+            #[inline]
+            fn shade(&self, sample: Sample<3>) -> $color {
+                $color(level(luma(sample.varyings), $max, sample.x, sample.y))
+            }
+        }
+
+        impl<F, A, Q> Fragment<$color, 2> for Dithered<Textured<'_, F, A, Q>>
+        where
+            F: PixelFormat<Color: Luminance + Default>,
+            A: Address,
+            Q: Sampling<F>,
+        {
+            #[inline]
+            fn shade(&self, sample: Sample<2>) -> $color {
+                $color(level(self.0.shade(sample).luma(), $max, sample.x, sample.y))
+            }
+        }
+    };
+}
+
+to_levels!(Gray4, 15);
+to_levels!(Binary, 1);
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::Gray8;
     use crate::{
         Affine, ClipVertex, Correction, DividedBy, Exact, Frame, Framebuffer, Hither, Packed,
         Perspective, PerspectiveEvery, Quick, Table, Tier,
@@ -169,6 +213,77 @@ mod tests {
                     assert!(off <= 2.0 / 32.0 + 1e-3, "{color:?}: {means:?}");
                 }
             }
+        }
+    }
+
+    /// The mean over each 4 x 4 pixels of a quad of one colour, of few levels.
+    fn level_mean<F: PixelFormat<Word = u8, Color: Copy>, T: Tier, I: Correction>(
+        color: [i32; 3],
+    ) -> f64
+    where
+        Dithered<Gouraud>: Fragment<F::Color, 3>,
+    {
+        let mut words = [0; 64];
+        let buffer = Framebuffer::<F>::try_new(&mut words, 8, 8).unwrap();
+        let frame = Frame::new(buffer).unwrap().with_hither(Hither::new(I16F16::ONE).unwrap());
+        let mut frame = frame.with_tier(T::default()).with_correction(I::default());
+        let corner = |x: i32, y: i32, w: i32| {
+            let at = |v: i32| I16F16::from_num(v * w);
+            let vertex = ClipVertex::new(at(x), at(y), I16F16::ZERO, I16F16::from_num(w));
+            (vertex, color.map(I16F16::from_bits))
+        };
+        let corners = [corner(-1, -1, 1), corner(3, -1, 2), corner(-1, 3, 2)];
+        frame.draw_triangle(corners, &Dithered(Gouraud));
+        words.into_iter().map(f64::from).sum::<f64>() / 64.0
+    }
+
+    /// As for colours: a varying is up to 2^-14 off, and a threshold is the middle of a 16th.
+    #[test]
+    fn means_of_few_levels_are_within_a_32nd_of_a_step() {
+        for u in (0..=1 << 16).step_by(463).chain([1, 65_535, 65_536]) {
+            let color = [u, 65_536 - u, u / 2];
+            let [r, g, b] = color.map(f64::from);
+            for (color, luma) in [
+                (color, (77.0 * r + 150.0 * g + 29.0 * b) / f64::from(1 << 24)),
+                ([u; 3], r / 65_536.0),
+            ] {
+                for (max, mean) in [
+                    (15.0, level_mean::<Gray4, Exact, Perspective>(color)),
+                    (15.0, level_mean::<Gray4, Quick<8>, Packed<PerspectiveEvery<8>>>(color)),
+                    (1.0, level_mean::<Binary, Exact, Perspective>(color)),
+                    (1.0, level_mean::<Binary, Quick<4>, Packed<Affine>>(color)),
+                ] {
+                    let off = (mean - luma * max).abs();
+                    assert!(off <= 1.0 / 32.0 + max / 4096.0, "{color:?}: {mean} of {max}");
+                }
+            }
+        }
+        for (color, black) in [([0; 3], true), ([65_536; 3], false)] {
+            let mean = level_mean::<Gray4, Exact, Perspective>(color);
+            assert_eq!(mean, if black { 0.0 } else { 15.0 });
+            let mean = level_mean::<Binary, Exact, Perspective>(color);
+            assert_eq!(mean, if black { 0.0 } else { 1.0 });
+        }
+    }
+
+    #[test]
+    fn texels_are_dithered_to_few_levels() {
+        for grey in 0..=255u8 {
+            let texels = [grey];
+            let texture = crate::Texture::<Gray8>::try_new(&texels, 1, 1).unwrap();
+            let shader = Dithered(Textured(texture));
+            let (mut levels, mut lit) = (0.0, 0.0);
+            for at in 0..16 {
+                let sample = Sample { x: at & 3, y: at >> 2, varyings: [I16F16::ZERO; 2] };
+                let color: Gray4 = shader.shade(sample);
+                levels += f64::from(color.0) / 16.0;
+                let color: Binary = shader.shade(sample);
+                lit += f64::from(color.0) / 16.0;
+            }
+            let unit = f64::from(grey) / 255.0;
+            assert!((levels - unit * 15.0).abs() <= 1.0 / 32.0 + 1e-3, "{grey}: {levels}");
+            assert!((lit - unit).abs() <= 1.0 / 32.0 + 1e-4, "{grey}: {lit}");
+            assert!((grey > 0 || levels + lit == 0.0) && (grey < 255 || levels + lit == 16.0));
         }
     }
 

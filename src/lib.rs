@@ -101,11 +101,13 @@ mod dither;
 mod draw;
 #[cfg(feature = "embedded-graphics")]
 mod eg;
+mod fog;
 mod fragment;
 mod framebuffer;
 mod interpolation;
 mod math;
 mod mesh;
+mod pack;
 mod plan;
 mod preset;
 mod setup;
@@ -123,16 +125,18 @@ pub use buffer::BufferSize;
 pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 #[doc(hidden)]
 pub use color::Lane;
-pub use color::{FromUnit, Gray8, PixelFormat, Rgb565, Rgb565Be, Rgb888};
-pub use depth::{Always, Compare, DepthBias, DepthBuffer, DepthTest, DepthWord, Less, NoDepth};
+pub use color::{Binary, FromUnit, Gray4, Gray8, Luminance, PixelFormat, Rgb565, Rgb565Be, Rgb888};
+pub use depth::{
+    Always, Compare, DepthBias, DepthBuffer, DepthTest, DepthWord, Less, NoDepth, TestOnly,
+};
 pub use dirty::Dirty;
-pub use depth::{Always, Compare, DepthBuffer, DepthTest, DepthWord, Less, NoDepth, TestOnly};
 pub use dither::Dithered;
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 #[cfg(feature = "embedded-graphics")]
 pub use eg::{AsPixelColor, DisplayColor, OnBand, OnDisplay};
 pub use fixed;
 pub use fixed::types::I16F16;
+pub use fog::{FogDistance, FogRange, Fogged};
 pub use fragment::{FaceColors, Flat, Fragment, Gouraud, Keyed, Sample, Textured};
 pub use framebuffer::{Framebuffer, Target};
 pub use interpolation::{
@@ -140,6 +144,7 @@ pub use interpolation::{
     PerspectiveEvery, Reciprocal, Table, Wide, Width,
 };
 pub use mesh::{AsVaryings, Lit, Mesh, MeshError, NormalColor, StoredPosition, VertexStage};
+pub use pack::{PackedSize, pack_gray4, pack_pages, pack_rows};
 pub use plan::{
     Bits, Budget, Corrected, Every, Plan, PlanError, Promise, Scene, SelectCorrection, SelectDepth,
     SelectReciprocal, SelectTier, SelectTransform, SelectWidth, Steps,

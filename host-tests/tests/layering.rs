@@ -4,10 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 22] = [
+const ORDER: [&str; 24] = [
     "math",
     "color",
     "buffer",
+    "pack",
     "vertex",
     "transform",
     "setup",
@@ -23,6 +24,7 @@ const ORDER: [&str; 22] = [
     "blend",
     "dither",
     "mesh",
+    "fog",
     "preset",
     "plan",
     "draw",
