@@ -69,11 +69,11 @@ pub trait Mix: Copy {
     /// `alpha` 255ths of this over `under`: each channel is the nearest to `(c alpha + u (255 - alpha)) / 255`, so that 0
     /// gives `under` and 255 gives `self`. No halves come up: 255 is odd.
     ///
-    /// Two multiplications for [`Rgb565`] and [`Rgb888`], one for [`Gray8`], and no division.
+    /// Two products with `alpha` for [`Rgb565`] and [`Rgb888`], one for [`Gray8`], and no division.
     #[must_use]
     fn mix(self, under: Self, alpha: u8) -> Self;
 
-    /// The sum, each channel up to its maximum. No multiplication.
+    /// The sum, each channel up to its maximum: an addition of all channels of [`Rgb565`], and masks.
     #[must_use]
     fn add(self, under: Self) -> Self;
 }
