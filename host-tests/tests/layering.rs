@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 24] = [
+const ORDER: [&str; 26] = [
     "math",
     "color",
     "buffer",
