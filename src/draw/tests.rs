@@ -193,3 +193,38 @@ fn counts_add_up() {
     counts += Counts { drawn: u32::MAX, ..Counts::default() };
     assert_eq!(counts.drawn, u32::MAX);
 }
+
+/// A tiny triangle has the same depths whether it is the first that a frame draws, as in a band, or not.
+#[test]
+fn the_first_triangle_of_a_frame_is_as_any_other() {
+    let mut state = 7u64;
+    let mut below = |n: i64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as i64 % n
+    };
+    let hither = Hither::new(I16F16::ONE).unwrap();
+    let mut drawn = 0;
+    for _ in 0..20_000 {
+        let corners = [0; 3].map(|_| {
+            let w = (1 << 16) + below(9 << 16);
+            let [x, y] = [0; 2].map(|_| (below(1 << 16) - (1 << 15)) * w >> 18);
+            let [x, y, z, w] = [x, y, below(w), w].map(|v| I16F16::from_bits(v as i32));
+            (ClipVertex::new(x, y, z, w), [])
+        });
+        let depths = [false, true].map(|seen| {
+            let (mut color, mut depth) = ([0; 32 * 32], [u16::MAX; 32 * 32]);
+            let target = Framebuffer::<Rgb565>::try_new(&mut color, 32, 32).unwrap();
+            let depths = DepthBuffer::try_new(&mut depth, 32, 32).unwrap();
+            let frame = Frame::new(target).unwrap().with_hither(hither);
+            let mut frame = frame.with_depth(depths).unwrap();
+            if seen {
+                let _ = frame.known_window();
+            }
+            frame.draw_triangle(corners, &Flat(Rgb565(1)));
+            depth
+        });
+        assert_eq!(depths[0], depths[1], "{corners:?}");
+        drawn += usize::from(depths[0].iter().any(|&depth| depth != u16::MAX));
+    }
+    assert!(drawn > 10_000, "{drawn}");
+}

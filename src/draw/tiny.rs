@@ -38,7 +38,7 @@ where
         let corners = T::corners(vertices.map(|v| &v.position));
         let whole = bounds_of(&corners, T::SUBPIXEL_BITS);
         // Looked at, whatever the outcodes say: the vertices may be another viewport's.
-        if !Tiny::is_within(whole) || !self.window.holds(whole) {
+        if !Tiny::is_within(whole) || !self.known_window().holds(whole) {
             return None;
         }
         if whole.is_empty() {
