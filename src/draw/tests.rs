@@ -207,7 +207,7 @@ fn the_first_triangle_of_a_frame_is_as_any_other() {
     for _ in 0..20_000 {
         let corners = [0; 3].map(|_| {
             let w = (1 << 16) + below(9 << 16);
-            let [x, y] = [0; 2].map(|_| (below(1 << 16) - (1 << 15)) * w >> 18);
+            let [x, y] = [0; 2].map(|_| ((below(1 << 16) - (1 << 15)) * w) >> 18);
             let [x, y, z, w] = [x, y, below(w), w].map(|v| I16F16::from_bits(v as i32));
             (ClipVertex::new(x, y, z, w), [])
         });
