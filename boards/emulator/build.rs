@@ -35,6 +35,9 @@ RAM : ORIGIN = 0x20000000, LENGTH = 4M }
         println!("cargo:rustc-link-arg=--nmagic");
     }
     println!("cargo:rustc-link-arg=-Tlink.x");
+    // Beside the program: OUT_DIR is build/NAME/out there.
+    let map = folder.ancestors().nth(3).expect("OUT_DIR is deep").join("bands_16k.map");
+    println!("cargo:rustc-link-arg-bin=bands_16k=-Map={}", map.display());
     // The AN505's timer is elsewhere.
     println!("cargo:rustc-check-cfg=cfg(armv8m)");
     if target.starts_with("thumbv8m") {
