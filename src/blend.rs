@@ -50,6 +50,16 @@ pub struct Alpha<C> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Add<C>(pub C);
 
+impl<C> Alpha<C> {
+    /// The same over a part of the pixel, Q16; `None` where nothing is left.
+    #[inline]
+    pub(crate) fn part(self, covered: i32) -> Option<Self> {
+        let alpha = (u32::from(self.alpha) * covered.unsigned_abs() + (1 << 15)) >> 16;
+        let alpha = u8::try_from(alpha).unwrap_or(u8::MAX);
+        (alpha > 0).then_some(Self { alpha, ..self })
+    }
+}
+
 impl<C: Mix> Merge<C> for Alpha<C> {
     #[inline]
     fn over(self, under: C) -> C {

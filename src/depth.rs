@@ -12,7 +12,7 @@ pub use test_only::TestOnly;
 
 pub use line::DepthBias;
 pub(crate) use line::DepthLine;
-pub(crate) use plane::{DepthPlane, DepthRun, projected, ranged};
+pub(crate) use plane::{DepthPlane, DepthRun, limits, projected, ranged};
 
 use crate::buffer::BufferSize;
 use bytemuck::Pod;

@@ -14,6 +14,7 @@ mod reach;
 mod shade;
 mod shape;
 mod small;
+mod smooth;
 mod tiny;
 
 pub use frame::{DepthFrame, DepthSize, DisplayFrame, Frame};

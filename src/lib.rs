@@ -95,6 +95,7 @@ mod blend;
 mod buffer;
 mod clip;
 mod color;
+mod coverage;
 mod depth;
 mod dirty;
 mod dither;
@@ -126,6 +127,7 @@ pub use clip::{BothSides, Hither, HitherDistance, NoHither, Plane, WRange};
 #[doc(hidden)]
 pub use color::Lane;
 pub use color::{Binary, FromUnit, Gray4, Gray8, Luminance, PixelFormat, Rgb565, Rgb565Be, Rgb888};
+pub use coverage::Edges;
 pub use depth::{
     Always, Compare, DepthBias, DepthBuffer, DepthTest, DepthWord, Less, NoDepth, TestOnly,
 };

@@ -4,6 +4,10 @@
 //! Everything is integer and the same on every instruction set, so a picture does not depend on the
 //! chip that drew it.
 
+mod root;
+
+pub(crate) use root::inverse_root;
+
 use core::hint::black_box;
 use core::num::NonZeroU32;
 use core::ops::{Add, Shl};

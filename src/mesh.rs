@@ -2,6 +2,7 @@
 //! clip space.
 
 mod light;
+mod neighbours;
 
 pub use light::{Lit, NormalColor};
 
@@ -142,6 +143,13 @@ pub enum MeshError {
         /// Attributes there are.
         attributes: usize,
     },
+    /// There is not one entry a triangle for its neighbours, or there are more triangles than can be named.
+    Neighbours {
+        /// Triangles there are.
+        triangles: usize,
+        /// Entries there are.
+        entries: usize,
+    },
     /// Positions have too many fraction bits.
     Fraction {
         /// Bits asked for; at most 31.
@@ -160,6 +168,13 @@ impl core::fmt::Display for MeshError {
             }
             Self::Attributes { positions, attributes } => {
                 write!(f, "{attributes} attributes for {positions} positions: one each is needed")
+            }
+            Self::Neighbours { triangles, entries } => {
+                write!(
+                    f,
+                    "{entries} entries for the neighbours of {triangles} triangles: one each is needed, \
+                     of up to 65535"
+                )
             }
             Self::Fraction { bits } => {
                 write!(f, "positions with {bits} fraction bits: at most 31")

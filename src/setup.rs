@@ -162,6 +162,12 @@ impl EdgeFunction {
         Self { a, b, c: (a + b) / 2 + c }
     }
 
+    /// Whether centres that are exactly on it are covered: it is a left edge, or a top edge.
+    #[inline]
+    pub(crate) const fn is_top_or_left(&self) -> bool {
+        self.a > 0 || (self.a == 0 && self.b > 0)
+    }
+
     /// The value at the centre of a pixel.
     #[inline(never)]
     pub(crate) fn at(&self, x: i32, y: i32) -> i64 {

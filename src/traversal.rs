@@ -19,12 +19,14 @@ mod scan;
 #[cfg(not(all(target_arch = "arm", not(target_has_atomic = "32"))))]
 mod shared;
 mod side;
+mod smooth;
 
 pub(crate) use exact::Stepped;
 pub(crate) use line::LineRuns;
 pub(crate) use rows::Rows;
 use rows::ShortRows;
 pub(crate) use scan::Scan;
+pub(crate) use smooth::SmoothSpans;
 
 /// How the edges of projected triangles are followed. On ARMv6-M a division is a call of 200 instructions, and
 /// a 64-bit shift or product one of 15 to 40.
@@ -204,10 +206,15 @@ impl<'a, const P: usize> Spans<'a, P> {
 /// An edge before the first row of a box, with the fill rule made part of it: covered is `>= 0`.
 #[inline(never)]
 fn biased(edge: &EdgeFunction, bounds: &Rect) -> Edge<i64> {
+    half_plane(edge, bounds, i64::from(!edge.is_top_or_left()))
+}
+
+/// Where an edge function is at least `least`, before the first row of a box.
+#[inline(always)]
+fn half_plane(edge: &EdgeFunction, bounds: &Rect, least: i64) -> Edge<i64> {
     let EdgeFunction { a, b, .. } = *edge;
     let begins = a >= 0;
-    let top_or_left = a > 0 || (a == 0 && b > 0);
-    let value = edge.at(bounds.x0, bounds.y0 - 1) - i64::from(!top_or_left);
+    let value = edge.at(bounds.x0, bounds.y0 - 1) - least;
     // `!v` is `-v - 1`.
     let (a, b, value) = if begins { (a, b, value) } else { (-a, -b, !value) };
     Edge { plane: HalfPlane { a, b, value, begins }, x: bounds.x0 }

@@ -39,6 +39,28 @@ impl ClipVertex {
         Self { raw: [x.to_bits(), y.to_bits(), z.to_bits(), w.to_bits()], shift: 0 }
     }
 
+    /// At a place on the screen, in pixels from the viewport's top left corner, y down, with a depth of 0: for 2D. Its `w` is
+    /// the product of the sides, in pixels; the place is exact where it is in whole 256ths within 4096 pixels of the corner.
+    ///
+    /// ```
+    /// use hither::{ClipVertex, Frame, Framebuffer, Gray8, I16F16, Quick, Snapped};
+    ///
+    /// # let mut words = [0; 12 * 7];
+    /// let frame = Frame::new(Framebuffer::<Gray8>::try_new(&mut words, 12, 7)?)?.with_tier(Quick::<8>);
+    /// let place = [I16F16::from_num(3.5), I16F16::from_num(-2)];
+    /// let vertex = frame.snap(&ClipVertex::on_screen(place, frame.viewport()), []);
+    /// assert_eq!(vertex.snapped(), Snapped::Projected { point: [896, -512], subpixel_bits: 8 });
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn on_screen([x, y]: [I16F16; 2], viewport: &Viewport) -> Self {
+        let (width, height) = (i64::from(viewport.width), i64::from(viewport.height));
+        // x / w = 2 X / W - 1 and y / w = 1 - 2 Y / H, with w = W H.
+        let across = (2 * i64::from(x.to_bits()) - (width << 16)) * height;
+        let up = ((height << 16) - 2 * i64::from(y.to_bits())) * width;
+        Self::from_wide([across, up, 0, (width * height) << 16])
+    }
+
     /// From raw Q16.16 coordinates of up to 63 bits. Where one does not fit 32 bits, all four are
     /// shifted right together, rounded to nearest, so the point stays where it is.
     #[inline]

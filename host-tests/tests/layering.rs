@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "math",
     "color",
     "buffer",
@@ -12,6 +12,7 @@ const ORDER: [&str; 26] = [
     "vertex",
     "transform",
     "setup",
+    "coverage",
     "clip",
     "span",
     "traversal",

@@ -102,6 +102,26 @@ impl Term {
         let sign = i64::from(self.sign);
         (product ^ sign) - sign
     }
+
+    /// The same of an edge function that may be negative.
+    #[inline]
+    fn apply_signed(&self, e: i64) -> i64 {
+        let value = self.apply(e.abs());
+        if e < 0 { -value } else { value }
+    }
+}
+
+/// The running values of vertices whose depths are all inside of the range, least and largest; otherwise the whole range.
+#[inline(never)]
+pub(crate) fn limits<T: Snap, const N: usize, const P: usize>(
+    vertices: [&Vertex<T, N, P>; 3],
+) -> [u32; 2] {
+    let [a, b, c] = vertices.map(|v| v.outside.0);
+    if a & b & c & Outside::RANGED == 0 {
+        return [0, u32::MAX];
+    }
+    let [a, b, c] = vertices.map(|v| (unsigned(v.z - (v.z >> 16)) << 1).wrapping_add(1 << 15));
+    [a.min(b).min(c), a.max(b).max(c)]
 }
 
 /// Each of three terms that are not summed exactly is at most `2^TERM_BITS` running units: 4 of the
@@ -149,6 +169,23 @@ impl DepthPlane {
             let step = limited(sum(&values, scale, &steps));
             Self { weights: Weights::Sum(values, scale), step, half }
         }
+    }
+
+    /// The running value at a pixel that may be a bit outside of the triangle, where the plane goes on; with the rounding in
+    /// it, saturated.
+    #[inline(never)]
+    pub(crate) fn beyond(&self, setup: &Setup, x: i32, y: i32) -> u32 {
+        let edges = setup.edges_at(x, y);
+        let value = match &self.weights {
+            Weights::Each([u, v, w]) => {
+                let [x, y, z] = edges;
+                u.apply_signed(x) + v.apply_signed(y) + w.apply_signed(z)
+            }
+            Weights::Sum(values, scale) => sum(values, *scale, &edges),
+        };
+        let (running, _) =
+            DepthRun { first: value.saturating_add(self.half), ..DepthRun::NONE }.running();
+        running
     }
 
     /// The run of a span. Not inlined: few triangles are drawn by it.

@@ -61,7 +61,7 @@ where
 
     /// Draws a span.
     #[inline(always)]
-    fn draw_span<F, const N: usize>(
+    pub(super) fn draw_span<F, const N: usize>(
         &mut self,
         setup: &Setup,
         span: Span,

@@ -54,6 +54,12 @@ impl Rect {
         Self { x0: self.x0 + x, y0: self.y0 + y, x1: self.x1 + x, y1: self.y1 + y }
     }
 
+    /// The same with a pixel more on each side.
+    #[inline]
+    pub(crate) const fn grown(self) -> Self {
+        Self { x0: self.x0 - 1, y0: self.y0 - 1, x1: self.x1 + 1, y1: self.y1 + 1 }
+    }
+
     /// Whether all of a box is in it.
     #[inline]
     pub(crate) const fn holds(&self, other: Self) -> bool {
