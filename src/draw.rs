@@ -3,6 +3,7 @@
 mod bent;
 mod blended;
 mod divided;
+mod filled;
 mod flat;
 mod frame;
 mod homogeneous;

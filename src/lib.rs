@@ -112,6 +112,7 @@ mod pack;
 mod plan;
 mod preset;
 mod setup;
+mod shape;
 mod span;
 mod texture;
 mod transform;
@@ -135,7 +136,7 @@ pub use dirty::Dirty;
 pub use dither::Dithered;
 pub use draw::{Counts, DepthFrame, DepthSize, DisplayFrame, Frame, Outcome};
 #[cfg(feature = "embedded-graphics")]
-pub use eg::{AsPixelColor, DisplayColor, OnBand, OnDisplay};
+pub use eg::{AsPixelColor, DisplayColor, Fill, Filled, OnBand, OnDisplay};
 pub use fixed;
 pub use fixed::types::I16F16;
 pub use fog::{FogDistance, FogRange, Fogged};
@@ -153,6 +154,7 @@ pub use plan::{
 };
 pub use preset::{Balance, Fidelity, Preset, Speed};
 pub use setup::{Cull, Facing, Tier};
+pub use shape::{Polygon, PolygonError, Shape, Triangle};
 pub use texture::{
     Address, Bilinear, Clamp, Filter, Nearest, Repeat, Sampling, Texture, TextureSize,
 };

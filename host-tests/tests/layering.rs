@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, first to last.
-const ORDER: [&str; 27] = [
+const ORDER: [&str; 28] = [
     "math",
     "color",
     "buffer",
@@ -23,6 +23,7 @@ const ORDER: [&str; 27] = [
     "dirty",
     "fragment",
     "blend",
+    "shape",
     "dither",
     "mesh",
     "fog",

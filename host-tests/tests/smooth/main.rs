@@ -1,8 +1,9 @@
-//! Smooth edges against exact areas.
+//! Smooth edges and filled shapes against exact areas.
 
 mod area;
 mod depth;
 mod meshes;
+mod shapes;
 mod triangles;
 
 use hither::{Alpha, I16F16};
