@@ -1,5 +1,5 @@
-//! Draws W6 whole and in bands, and W1 and W2 through a draw target of embedded-graphics, in every tier, and prints a line each:
-//! output, workload, tier, bytes of RAM, clock ticks, checksum.
+//! Draws W6 whole, in bands and as lines, and W1 and W2 through a draw target of embedded-graphics and with smooth edges, in
+//! every tier, and prints a line each: output, workload, tier, bytes of RAM, clock ticks, checksum.
 //!
 //! The first lines are `spin`, as those of `measure` are.
 #![no_std]
@@ -7,7 +7,7 @@
 
 use emulator::clock;
 use hither::{
-    Bins, Cull, Exact, FaceColors, Flat, Frame, Framebuffer, Gouraud, Hither, Interpolates, Mat4,
+    Bins, Cull, Exact, FaceColors, Frame, Framebuffer, Gouraud, Hither, Interpolates, Mat4,
     OnDisplay, Quick, Rgb565, Vertex, VertexStage,
 };
 use hither_scenes::SceneError;
@@ -15,7 +15,7 @@ use hither_scenes::checksum::Checksum;
 use hither_scenes::torus;
 use hither_scenes::workloads::{
     BINNED, Buffers, CACHE, Colors, HITHER, Output, PIXELS, Preset, SIDE, Store, TRIANGLES,
-    Workload, corners, draw_output, face_color,
+    Workload, draw_flat, draw_output, smooth_flat, snapped, torus_lines,
 };
 use semihosting::println;
 use static_cell::ConstStaticCell;
@@ -72,14 +72,31 @@ fn measure<T: Preset>(
     count::<T, _, 3>(buffers, &Gouraud, &mut store, overhead);
     let triangles = caches.triangles.take();
     for workload in [Workload::W1, Workload::W2] {
-        let ram = 2 * PIXELS;
-        match on_display::<T>(workload, buffers.color, triangles) {
-            Ok((ticks, sum)) => {
-                let (name, ticks) = (workload.name(), ticks.wrapping_sub(overhead));
-                println!("display {name} {} {ram} {ticks} {sum:08x}", T::NAME);
-            }
-            Err(error) => println!("display {} {}: {error}", workload.name(), T::NAME),
+        let counted = on_display::<T>(workload, buffers.color, triangles);
+        report::<T>("display", workload, 2 * PIXELS, counted, overhead);
+        let counted = smooth_flat::<T>(workload, buffers.color, triangles, clock::now);
+        report::<T>("smooth", workload, 2 * PIXELS, counted, overhead);
+    }
+    let vertices = triangles.as_flattened_mut().get_mut(..CACHE).unwrap_or_default();
+    let ram = 4 * PIXELS + size_of_val(vertices);
+    report::<T>("lines", Workload::W6f, ram, torus_lines(buffers, vertices, clock::now), overhead);
+}
+
+/// Prints a line.
+fn report<T: Preset>(
+    name: &str,
+    workload: Workload,
+    ram: usize,
+    counted: Result<(u32, u32), SceneError>,
+    overhead: u32,
+) {
+    let workload = workload.name();
+    match counted {
+        Ok((ticks, sum)) => {
+            let ticks = ticks.wrapping_sub(overhead);
+            println!("{name} {workload} {} {ram} {ticks} {sum:08x}", T::NAME);
         }
+        Err(error) => println!("{name} {workload} {}: {error}", T::NAME),
     }
 }
 
@@ -96,37 +113,12 @@ fn on_display<T: Preset>(
         .with_correction(T::Correction::default())
         .with_hither(HITHER)
         .with_cull(Cull::Back);
-    let mut count = 0;
-    corners(workload, |number, corners| {
-        if let Some(triangle) = triangles.get_mut(number) {
-            for (vertex, corner) in triangle.iter_mut().zip(corners) {
-                *vertex = frame.snap(&corner.clip(), []);
-            }
-            count = number + 1;
-        }
-    });
+    let triangles = snapped(&frame, workload, triangles);
     let start = clock::now();
-    draw_flat(&mut frame, triangles.get(..count).unwrap_or_default());
+    draw_flat(&mut frame, triangles);
     let Ok(()) = frame.finish();
     let ticks = clock::now().wrapping_sub(start);
     Ok((ticks, Checksum::new().with_words(color).value()))
-}
-
-/// The counted part.
-#[inline(never)]
-fn draw_flat<T: Preset>(
-    frame: &mut Frame<
-        OnDisplay<'_, Framebuffer<'_, Rgb565>>,
-        hither::NoDepth,
-        Hither,
-        T,
-        T::Correction,
-    >,
-    triangles: &[[Vertex<T>; 3]],
-) {
-    for (number, [a, b, c]) in triangles.iter().enumerate() {
-        frame.draw_snapped([a, b, c], &Flat(face_color(number)));
-    }
 }
 
 /// Draws every output in some colours.
@@ -142,13 +134,7 @@ fn count<T, F, const N: usize>(
     Mat4: VertexStage<F::Attribute, N>,
 {
     for output in Output::ALL {
-        let (name, ram) = (output.name, output.ram::<T, N>());
-        match draw_output(output, buffers, colors, store, clock::now) {
-            Ok((ticks, sum)) => {
-                let ticks = ticks.wrapping_sub(overhead);
-                println!("{name} {} {} {ram} {ticks} {sum:08x}", F::NAME, T::NAME);
-            }
-            Err(error) => println!("{name} {} {}: {error}", F::NAME, T::NAME),
-        }
+        let counted = draw_output(output, buffers, colors, store, clock::now);
+        report::<T>(output.name, F::WORKLOAD, output.ram::<T, N>(), counted, overhead);
     }
 }

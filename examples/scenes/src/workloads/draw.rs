@@ -7,8 +7,9 @@ use crate::SceneError;
 use crate::checksum::Checksum;
 use crate::torus;
 use hither::{
-    ClipVertex, Cull, DepthBuffer, DepthTest, FaceColors, Flat, Fragment, Frame, Framebuffer,
-    Gouraud, Hither, I16F16, NoDepth, Rgb565, Snapped, Textured, Vertex,
+    ClipVertex, Cull, DepthBias, DepthBuffer, DepthTest, Edges, FaceColors, Flat, Fragment, Frame,
+    Framebuffer, Gouraud, Hither, I16F16, NoDepth, Rgb565, Snapped, Target, Textured, Translucent,
+    Vertex,
 };
 
 /// Triangles of W2 and W3.
@@ -108,9 +109,9 @@ pub fn flat_deep<T: Preset>(
     Ok(ticks(clock, || draw_flat(&mut frame, triangles)))
 }
 
-/// A workload's triangles as a frame snaps them; those that there are.
-fn snapped<'v, T: Preset, D: DepthTest>(
-    frame: &Frame<Framebuffer<'_, Rgb565>, D, Hither, T, T::Correction>,
+/// The triangles of one of W1 to W3z as a frame snaps them; those that there are room for.
+pub fn snapped<'v, C: Target, T: Preset, D: DepthTest>(
+    frame: &Frame<C, D, Hither, T, T::Correction>,
     workload: Workload,
     triangles: &'v mut [[Vertex<T>; 3]],
 ) -> &'v [[Vertex<T>; 3]] {
@@ -129,13 +130,72 @@ fn snapped<'v, T: Preset, D: DepthTest>(
 
 /// The counted part of W1 to W3z.
 #[inline(never)]
-fn draw_flat<T: Preset, D: DepthTest>(
-    frame: &mut Frame<Framebuffer<'_, Rgb565>, D, Hither, T, T::Correction>,
+pub fn draw_flat<C: Target<Color = Rgb565>, T: Preset, D: DepthTest>(
+    frame: &mut Frame<C, D, Hither, T, T::Correction>,
     triangles: &[[Vertex<T>; 3]],
 ) {
     for (number, [a, b, c]) in triangles.iter().enumerate() {
         frame.draw_snapped([a, b, c], &Flat(face_color(number)));
     }
+}
+
+/// Draws W1 or W2 with smooth edges over the cleared colours; what the clock says of the drawing, and the checksum of the colours.
+///
+/// # Errors
+///
+/// [`SceneError`]: none in practice, the numbers are constants in range.
+pub fn smooth_flat<T: Preset>(
+    workload: Workload,
+    color: &mut [u16; PIXELS],
+    triangles: &mut [[Vertex<T>; 3]],
+    clock: impl Fn() -> u32,
+) -> Result<(u32, u32), SceneError> {
+    let mut frame = bare(color, HITHER)?;
+    let triangles = snapped(&frame, workload, triangles);
+    let ticks = ticks(clock, || draw_smooth_flat(&mut frame, triangles));
+    Ok((ticks, Checksum::new().with_words(frame.target().words()).value()))
+}
+
+/// The counted part.
+#[inline(never)]
+fn draw_smooth_flat<T: Preset>(frame: &mut Bare<'_, T>, triangles: &[[Vertex<T>; 3]]) {
+    let mut frame = frame.blended();
+    for (number, [a, b, c]) in triangles.iter().enumerate() {
+        let fragment = Translucent(Flat(face_color(number)), 255);
+        frame.draw_smooth([a, b, c], Edges::ALL, &fragment);
+    }
+}
+
+/// Draws the lines of W6's torus over its cleared colours and depths, hidden ones among themselves; what the clock says of all
+/// of it, and the checksum of colours and depths.
+///
+/// # Errors
+///
+/// [`SceneError`]: none in practice, the numbers are constants in range.
+pub fn torus_lines<T: Preset>(
+    buffers: &mut Buffers<'_>,
+    cache: &mut [Vertex<T>],
+    clock: impl Fn() -> u32,
+) -> Result<(u32, u32), SceneError> {
+    let mut frame = deep::<T>(buffers, torus::HITHER)?;
+    let mut done = Ok(());
+    let ticks = ticks(clock, || done = draw_torus_lines(&mut frame, cache));
+    done?;
+    let sum = Checksum::new().with_words(buffers.color).with_words(buffers.depth);
+    Ok((ticks, sum.value()))
+}
+
+/// The counted part.
+#[inline(never)]
+fn draw_torus_lines<T: Preset>(
+    frame: &mut Deep<'_, T>,
+    cache: &mut [Vertex<T>],
+) -> Result<(), SceneError> {
+    let transform = torus::transform();
+    let transform = transform.as_ref().map_err(|&error| error)?;
+    let white = Flat(Rgb565::WHITE);
+    frame.draw_wireframe(&torus::BARE_TORUS, transform, DepthBias::NONE, &white, cache);
+    Ok(())
 }
 
 /// Draws W4; what the clock says of the drawing.

@@ -23,8 +23,9 @@ mod texel;
 
 pub use corners::{Corner, DEPTH_ONE, corners};
 pub use draw::{
-    Buffers, CACHE, COLORS, COORDINATES, SNAPPED, TRIANGLES, draw, face_color, flat, flat_deep,
-    gouraud, snap, textured, to_be_snapped, torus_flat, torus_gouraud,
+    Buffers, CACHE, COLORS, COORDINATES, SNAPPED, TRIANGLES, draw, draw_flat, face_color, flat,
+    flat_deep, gouraud, smooth_flat, snap, snapped, textured, to_be_snapped, torus_flat,
+    torus_gouraud, torus_lines,
 };
 pub use output::{BINNED, Colors, Output, Store, draw_output};
 pub use texel::{TEXTURE, TEXTURE_SIDE, texel_of};

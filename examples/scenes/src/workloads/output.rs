@@ -3,7 +3,7 @@
 //! Each draws the picture of W6f or W6g, to the bit. A band takes its own rows of the whole picture's buffers, which were
 //! cleared before, so that all of it is counted in one: what a band's frame takes, the bins, and the drawing.
 
-use super::{Buffers, CACHE, Preset, SIDE};
+use super::{Buffers, CACHE, Preset, SIDE, Workload};
 use crate::SceneError;
 use crate::checksum::Checksum;
 use crate::torus;
@@ -50,7 +50,7 @@ impl Output {
 /// What W6's torus is drawn with: a colour a face, or a colour a vertex.
 pub trait Colors<const N: usize>: Fragment<Rgb565, N> {
     /// W6f or W6g.
-    const NAME: &'static str;
+    const WORKLOAD: Workload;
     /// What its vertices have.
     type Attribute: 'static;
     /// The torus with it.
@@ -58,13 +58,13 @@ pub trait Colors<const N: usize>: Fragment<Rgb565, N> {
 }
 
 impl Colors<0> for FaceColors<'_, Rgb565> {
-    const NAME: &'static str = "W6f";
+    const WORKLOAD: Workload = Workload::W6f;
     type Attribute = ();
     const MESH: &'static Mesh<'static, [i32; 3], ()> = &torus::BARE_TORUS;
 }
 
 impl Colors<3> for Gouraud {
-    const NAME: &'static str = "W6g";
+    const WORKLOAD: Workload = Workload::W6g;
     type Attribute = [u8; 3];
     const MESH: &'static Mesh<'static, [i32; 3], [u8; 3]> = &torus::TORUS;
 }
