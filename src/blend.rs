@@ -33,6 +33,14 @@ pub trait Merge<C>: Copy {
     /// What is shown where `under` was.
     #[must_use]
     fn over(self, under: C) -> C;
+
+    /// What is shown whatever was there, where that makes no difference: runs of it are filled without a look. `None` is
+    /// always right.
+    #[inline]
+    #[must_use]
+    fn opaque(self) -> Option<C> {
+        None
+    }
 }
 
 /// A colour that covers a part of what is there.
@@ -64,6 +72,11 @@ impl<C: Mix> Merge<C> for Alpha<C> {
     #[inline]
     fn over(self, under: C) -> C {
         self.color.mix(under, self.alpha)
+    }
+
+    #[inline]
+    fn opaque(self) -> Option<C> {
+        (self.alpha == u8::MAX).then_some(self.color)
     }
 }
 

@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 /// [`Frame::blended`](crate::Frame::blended), which makes one.
 ///
 /// `M` is what is drawn: [`Alpha`] or [`Add`](crate::Add) of the format's colour, or any other [`Merge`] with it. Each pixel
-/// is read, decoded, merged, encoded and written; each pixel of a fill too. Only memory can be read: there is none of this
+/// is read, decoded, merged, encoded and written; each pixel of a fill too, unless it is [`opaque`](Merge::opaque). Only memory can be read: there is none of this
 /// over a display that is written to as it is drawn, but [`Over`].
 ///
 /// ```
@@ -74,7 +74,9 @@ impl<F: PixelFormat, M: Merge<F::Color>> Target for Blended<'_, F, M> {
 
     #[inline]
     fn fill(&mut self, x: usize, y: usize, length: usize, color: M) {
-        if let Some(run) = self.buffer.from(x, y).get_mut(..length) {
+        if let Some(color) = color.opaque() {
+            self.buffer.fill(x, y, length, color);
+        } else if let Some(run) = self.buffer.from(x, y).get_mut(..length) {
             run.iter_mut().for_each(|word| Self::merge(word, color));
         }
     }
