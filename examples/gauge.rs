@@ -2,7 +2,6 @@
 //! embedded-graphics.
 
 use std::error::Error;
-use std::path::Path;
 
 use embedded_graphics::mono_font::MonoTextStyle;
 use embedded_graphics::mono_font::iso_8859_1::{FONT_9X15, FONT_10X20};
@@ -40,11 +39,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Where firmware sends `frame.target().bytes()` to the display.
     let words: Vec<_> = frame.target().words().iter().map(|&word| u16::from_be(word)).collect();
     let rgb = rgb565::expand_all(&words);
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("docs").join("gauge.png");
-    for path in [picture::target_folder().join("gauge.png"), docs] {
-        picture::write_png(&path, SIDE, SIDE, &rgb)?;
-        println!("Picture    {}", path.display());
-    }
+    let path = picture::target_folder().join("gauge.png");
+    picture::write_png(&path, SIDE, SIDE, &rgb)?;
+    println!("Picture    {}", path.display());
     Ok(())
 }
 

@@ -11,7 +11,7 @@ mod target;
 pub use shader::{Additive, Translucent};
 pub use target::{Blended, Over};
 
-use crate::color::{Gray8, Rgb565, Rgb888};
+use crate::color::{Binary, Gray4, Gray8, Rgb565, Rgb888};
 
 /// A drawn value that is merged with the colour that is there: [`Alpha`], [`Add`], or your own.
 ///
@@ -92,7 +92,7 @@ pub trait Mix: Copy {
     /// `alpha` 255ths of this over `under`: each channel is the nearest to `(c alpha + u (255 - alpha)) / 255`, so that 0
     /// gives `under` and 255 gives `self`. No halves come up: 255 is odd.
     ///
-    /// Two products with `alpha` for [`Rgb565`] and [`Rgb888`], one for [`Gray8`], and no division.
+    /// Two products with `alpha` for [`Rgb565`] and [`Rgb888`], one for greys and two colours, and no division.
     #[must_use]
     fn mix(self, under: Self, alpha: u8) -> Self;
 
@@ -183,18 +183,25 @@ impl Mix for Rgb888 {
     }
 }
 
-impl Mix for Gray8 {
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "a lane is 8 bits")]
-    fn mix(self, under: Self, alpha: u8) -> Self {
-        Self(mix_lanes(u32::from(self.0), u32::from(under.0), alpha) as u8)
-    }
+/// One channel of up to 8 bits, with a maximum.
+macro_rules! one_channel {
+    ($($color:ident),+) => {$(
+        impl Mix for $color {
+            #[inline]
+            #[expect(clippy::cast_possible_truncation, reason = "a lane is 8 bits")]
+            fn mix(self, under: Self, alpha: u8) -> Self {
+                Self(mix_lanes(u32::from(self.0), u32::from(under.0), alpha) as u8)
+            }
 
-    #[inline]
-    fn add(self, under: Self) -> Self {
-        Self(self.0.saturating_add(under.0))
-    }
+            #[inline]
+            fn add(self, under: Self) -> Self {
+                Self(self.0.saturating_add(under.0).min(Self::WHITE.0))
+            }
+        }
+    )+};
 }
+
+one_channel!(Gray8, Gray4, Binary);
 
 #[cfg(test)]
 mod tests {
@@ -204,6 +211,22 @@ mod tests {
     fn mixed(c: u8, u: u8, a: u8) -> u8 {
         let [c, u, a] = [c, u, a].map(u32::from);
         ((2 * (c * a + u * (255 - a)) + 255) / 510) as u8
+    }
+
+    #[test]
+    fn few_levels_mix_and_add_too() {
+        for alpha in 0..=255 {
+            for c in 0..16 {
+                for u in 0..16 {
+                    let (color, under) = (Gray4(c), Gray4(u));
+                    assert_eq!(color.mix(under, alpha), Gray4(mixed(c, u, alpha)));
+                    assert_eq!(color.add(under), Gray4((c + u).min(15)));
+                }
+            }
+            let lit = Binary::WHITE.mix(Binary::BLACK, alpha);
+            assert_eq!(lit, Binary(u8::from(alpha >= 128)));
+        }
+        assert_eq!(Binary::WHITE.add(Binary::WHITE), Binary::WHITE);
     }
 
     /// Every channel's every value over every other with every alpha, beside different ones in the other channels.

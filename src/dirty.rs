@@ -151,6 +151,7 @@ impl<T: Target> Dirty<T> {
 
 impl<T: Target<Color: PartialEq>> Target for Dirty<T> {
     type Color = T::Color;
+    const MERGES: bool = T::MERGES;
 
     #[inline]
     fn size(&self) -> (u32, u32) {
@@ -267,7 +268,8 @@ impl<T: Target<Color: PartialEq>> Target for Dirty<T> {
     /// Fills with a colour what was drawn, if all else is of that colour since the last time; otherwise all of it.
     fn clear(&mut self, color: T::Color) {
         let whole = Bounds::whole(self.inner.size());
-        let drawn = if self.color == Some(color) { self.now.union(self.before) } else { whole };
+        let same = self.color == Some(color) && !T::MERGES;
+        let drawn = if same { self.now.union(self.before) } else { whole };
         if drawn == whole {
             self.inner.clear(color);
         } else {

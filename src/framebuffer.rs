@@ -39,6 +39,10 @@ pub trait Target {
     /// What a pixel is drawn with.
     type Color: Copy;
 
+    /// Whether what is drawn is merged with what is there, so that drawing it again is not the same.
+    #[doc(hidden)]
+    const MERGES: bool = false;
+
     /// Width and height in pixels, the same whenever they are asked for.
     fn size(&self) -> (u32, u32);
 

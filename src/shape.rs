@@ -10,7 +10,34 @@ mod rows;
 pub(crate) use area::fill_smooth;
 pub(crate) use rows::fill;
 
+use crate::framebuffer::Target;
+use crate::math::index;
 use fixed::types::I16F16;
+
+/// Where pixel (0, 0) lies in a target: from -2^31 to 2^31, as a display's first pixel may be anywhere.
+type Origin = (i64, i64);
+
+/// A pixel in a target that holds it.
+#[inline]
+fn placed((x, y): (i32, i32), (left, top): Origin) -> (usize, usize) {
+    // A target that is not endless has no such place.
+    let place =
+        |at: i32, origin: i64| usize::try_from(i64::from(at) + origin).unwrap_or(usize::MAX);
+    (place(x, left), place(y, top))
+}
+
+/// Fills a run of a row with one colour, if any.
+fn fill_run<T: Target>(
+    target: &mut T,
+    (x0, x1, row): (i32, i32, i32),
+    origin: Origin,
+    color: Option<T::Color>,
+) {
+    if let Some(color) = color.filter(|_| x0 < x1) {
+        let (x, y) = placed((x0, row), origin);
+        target.fill(x, y, index(x1.saturating_sub(x0)), color);
+    }
+}
 
 /// A place on the screen in pixels: see [`Polygon`].
 type Corner = [I16F16; 2];
@@ -27,8 +54,8 @@ pub trait Shape {
 /// A corner is `[x, y]` in pixels from the top left corner of the viewport or the display, y down, so that the centre of the first
 /// pixel is `[0.5, 0.5]`; it is rounded to a 256th of a pixel.
 ///
-/// It may cross itself: it is filled where its outline winds around, and smooth edges are wrong by what is wound
-/// around twice, within the pixels of the crossing.
+/// It may cross or touch itself: it is filled where its outline winds around. In pixels that its parts share, smooth edges
+/// are wrong: what is wound around twice there counts twice, and what is wound around both ways not at all.
 ///
 /// ```
 /// use hither::{Frame, Framebuffer, Gray8, I16F16, Polygon};

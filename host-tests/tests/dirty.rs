@@ -1,9 +1,9 @@
 //! The dirty rectangle against pictures compared pixel by pixel, and against the same frames without it.
 
 use hither::{
-    Always, Balance, ClipVertex, Correction, DepthBias, DepthBuffer, DepthTest, Dirty, Fidelity,
-    Flat, Fragment, Frame, Framebuffer, Gouraud, Hither, I16F16, Interpolates, Preset, Rect,
-    Rgb565, Sample, Speed, Target, Texture, Textured, Tier, Viewport,
+    Alpha, Always, Balance, Blended, ClipVertex, Correction, DepthBias, DepthBuffer, DepthTest,
+    Dirty, Fidelity, Flat, Fragment, Frame, Framebuffer, Gouraud, Gray8, Hither, I16F16,
+    Interpolates, Preset, Rect, Rgb565, Sample, Speed, Target, Texture, Textured, Tier, Viewport,
 };
 use host_tests::oracle::Rng;
 use host_tests::record::{Record, clip_vertex};
@@ -278,4 +278,16 @@ fn a_rectangles_rows_are_those_of_the_buffer() {
     for (x0, y0, x1, y1) in [(0, 0, 0, 0), (2, 0, 1, 3), (0, 3, 4, 9), (4, 0, 9, 3), (0, 2, 4, 1)] {
         assert!(rows(x0, y0, x1, y1).is_empty());
     }
+}
+
+/// Over a target that merges, a clear is drawn as often as it is asked for.
+#[test]
+fn clears_that_merge_are_drawn_everywhere() {
+    let mut words = [200; 16];
+    let mut buffer = Framebuffer::<Gray8>::try_new(&mut words, 4, 4).unwrap();
+    let mut dirty = Dirty::new(Blended::<Gray8>::new(&mut buffer));
+    for _ in 0..3 {
+        dirty.clear(Alpha { color: Gray8(0), alpha: 128 });
+    }
+    assert_eq!(words, [25; 16]);
 }

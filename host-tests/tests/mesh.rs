@@ -483,7 +483,7 @@ fn indices_of_sixteen_bits_name_all_vertices_there_may_be() {
     assert_eq!(error(&strip(65_537), Keep::Lit), message);
 }
 
-/// The order that is kept against the one of first use, on what comes with hither: the README's figures.
+/// The order that is kept against the one of first use, on what comes with hither.
 #[test]
 fn most_used_first_takes_fewer_transforms_than_first_use() {
     use hither_models::order::{by_first_use, renumber, transforms};

@@ -128,7 +128,7 @@ impl<T: Transfer> SwapChain<T> {
     }
 
     /// The transfer, and the buffers that it did not hold at the end of the last frame: all of them,
-    /// unless that frame failed.
+    /// unless that frame failed or was dropped.
     pub fn into_parts(self) -> (T, [Option<T::Buffer>; 2]) {
         (self.transfer, self.idle)
     }

@@ -43,6 +43,7 @@ impl<'a, F: PixelFormat, M: Merge<F::Color>> Blended<'a, F, M> {
 
 impl<F: PixelFormat, M: Merge<F::Color>> Target for Blended<'_, F, M> {
     type Color = M;
+    const MERGES: bool = true;
 
     #[inline]
     fn size(&self) -> (u32, u32) {

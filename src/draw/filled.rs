@@ -11,8 +11,8 @@ impl<C: Target, D: DepthTest, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
     /// of the tier [`Quick<8>`](crate::Quick) has them. Shapes that share an edge neither gap nor overlap. Depth is neither looked
     /// at nor stored.
     pub fn fill_shape(&mut self, shape: &impl Shape, color: C::Color) {
-        let window = self.known_window();
-        shape::fill(&mut self.target, &shape.polygon(), window, self.viewport.origin, color);
+        let (window, origin) = (self.known_window(), self.origin());
+        shape::fill(&mut self.target, &shape.polygon(), window, origin, color);
     }
 
     /// Fills a shape on the screen with smooth edges: pixels that an edge cuts take the share of them that is inside, within 1 %
@@ -44,6 +44,7 @@ impl<C: Target, D: DepthTest, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
         C: Target<Color = Alpha<K>>,
     {
         let window = self.known_window();
-        shape::fill_smooth(&mut self.target, &shape.polygon(), window, self.viewport.origin, color);
+        let origin = self.origin();
+        shape::fill_smooth(&mut self.target, &shape.polygon(), window, origin, color);
     }
 }

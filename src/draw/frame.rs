@@ -256,6 +256,12 @@ impl<C: Target, D: DepthTest, W, T, I, const P: usize> Frame<C, D, W, T, I, P> {
         (unsigned(y0.max(0)), unsigned(y1.max(0)))
     }
 
+    /// Where pixel (0, 0) lies in the target.
+    pub(super) fn origin(&self) -> (i64, i64) {
+        let (x, y) = self.viewport.origin;
+        (x.into(), y.into())
+    }
+
     /// Not inlined: it is done once a target.
     #[inline(never)]
     fn find_window(&mut self) {

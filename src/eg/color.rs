@@ -1,13 +1,13 @@
 //! Colours to and from embedded-graphics' own, at the edge: those are not plain words, so they
 //! cannot be what is stored.
 
-use crate::color::{Gray8, Rgb565, Rgb888};
+use crate::color::{Binary, Gray4, Gray8, Rgb565, Rgb888};
 use embedded_graphics_core::pixelcolor::raw::{RawU8, RawU16, RawU24};
-use embedded_graphics_core::pixelcolor::{self, PixelColor, RgbColor};
+use embedded_graphics_core::pixelcolor::{self, BinaryColor, PixelColor, RgbColor};
 use embedded_graphics_core::prelude::{GrayColor, RawData};
 
 /// A colour that displays take, and which of ours is drawn for it: [`Rgb565`] for those of 15 or 16 bits, [`Rgb888`] for 18
-/// or 24, and [`Gray8`] for levels of grey and for two colours, converted as embedded-graphics does.
+/// or 24, [`Gray8`] for 256 or 4 greys, [`Gray4`] for 16, and [`Binary`] for two, converted as embedded-graphics does.
 ///
 /// For a colour that is not among these there is embedded-graphics' `color_converted`, which makes another display of one.
 pub trait DisplayColor: PixelColor + From<Self::Drawn> {
@@ -64,6 +64,34 @@ impl From<Gray8> for pixelcolor::Gray8 {
     }
 }
 
+impl From<pixelcolor::Gray4> for Gray4 {
+    #[inline]
+    fn from(color: pixelcolor::Gray4) -> Self {
+        Self(color.luma())
+    }
+}
+
+impl From<Gray4> for pixelcolor::Gray4 {
+    #[inline]
+    fn from(color: Gray4) -> Self {
+        Self::new(color.0)
+    }
+}
+
+impl From<BinaryColor> for Binary {
+    #[inline]
+    fn from(color: BinaryColor) -> Self {
+        Self(color.is_on().into())
+    }
+}
+
+impl From<Binary> for BinaryColor {
+    #[inline]
+    fn from(color: Binary) -> Self {
+        (color.0 != 0).into()
+    }
+}
+
 /// Colours that are the same bits there and here.
 macro_rules! drawn_as_the_same {
     ($($color:ident),+) => {$(
@@ -77,7 +105,15 @@ macro_rules! drawn_as_the_same {
     )+};
 }
 
-drawn_as_the_same!(Rgb565, Rgb888, Gray8);
+drawn_as_the_same!(Rgb565, Rgb888, Gray8, Gray4);
+
+impl DisplayColor for BinaryColor {
+    type Drawn = Binary;
+}
+
+impl AsPixelColor for Binary {
+    type PixelColor = BinaryColor;
+}
 
 /// Colours that embedded-graphics converts to from the one of the same bits as ours.
 macro_rules! drawn_as {
@@ -97,12 +133,11 @@ macro_rules! drawn_as {
 
 drawn_as!(Rgb565: Bgr565, Rgb555, Bgr555);
 drawn_as!(Rgb888: Bgr888, Rgb666, Bgr666);
-drawn_as!(Gray8: Gray4, Gray2, BinaryColor);
+drawn_as!(Gray8: Gray2);
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use embedded_graphics_core::pixelcolor::BinaryColor;
 
     #[test]
     fn colours_go_there_and_back() {
@@ -116,6 +151,15 @@ mod tests {
         assert_eq!(Rgb888::from(color), Rgb888::new(1, 2, 3));
         assert_eq!(pixelcolor::Rgb888::from(Rgb888::new(1, 2, 3)), color);
         assert_eq!(Gray8::from(pixelcolor::Gray8::from(Gray8(77))), Gray8(77));
+        for level in 0..16 {
+            let theirs = pixelcolor::Gray4::from(Gray4(level));
+            assert_eq!((theirs.luma(), Gray4::from(theirs)), (level, Gray4(level)));
+        }
+        assert_eq!(
+            [Binary::BLACK, Binary::WHITE].map(|v| BinaryColor::from(v).is_on()),
+            [false, true]
+        );
+        assert_eq!(Binary::from(BinaryColor::On), Binary::WHITE);
     }
 
     #[test]
@@ -129,7 +173,6 @@ mod tests {
         let theirs = pixelcolor::Bgr666::from(Rgb888::new(255, 100, 7));
         // 100 and 7 of 255 are 24.7 and 1.7 of 63.
         assert_eq!((theirs.r(), theirs.g(), theirs.b()), (63, 25, 2));
-        assert_eq!(pixelcolor::Gray4::from(Gray8(0x7f)).luma(), 7);
-        assert_eq!([127, 128].map(|v| BinaryColor::from(Gray8(v)).is_on()), [false, true]);
+        assert_eq!(pixelcolor::Gray2::from(Gray8(0x7f)).luma(), 1);
     }
 }

@@ -70,7 +70,7 @@ where
         let (x0, y0) = (area.top_left.x, area.top_left.y);
         let end = |start: i32, length: u32| start.saturating_add_unsigned(length);
         let window = Rect { x0, y0, x1: end(x0, area.size.width), y1: end(y0, area.size.height) };
-        let origin = (x0.saturating_neg(), y0.saturating_neg());
+        let origin = (-i64::from(x0), -i64::from(y0));
         let drawn = |color: C| C::Drawn::from(<C::Drawn as AsPixelColor>::PixelColor::from(color));
         let polygon = self.shape.polygon();
         let mut display = OnDisplay::new(target);
@@ -86,5 +86,62 @@ where
                 mixed.into_target().finish()
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Gray8;
+    use crate::shape::Triangle;
+    use core::convert::Infallible;
+    use embedded_graphics_core::Pixel;
+    use embedded_graphics_core::geometry::{Dimensions, Point, Size};
+    use embedded_graphics_core::pixelcolor;
+    use embedded_graphics_core::prelude::GrayColor;
+    use embedded_graphics_core::primitives::Rectangle;
+    use fixed::types::I16F16;
+    use std::vec::Vec;
+
+    /// A display that is as large as coordinates go.
+    struct Endless(Vec<(i32, i32, u32)>);
+
+    impl Dimensions for Endless {
+        fn bounding_box(&self) -> Rectangle {
+            Rectangle::new(Point::new(i32::MIN, i32::MIN), Size::new(u32::MAX, u32::MAX))
+        }
+    }
+
+    impl DrawTarget for Endless {
+        type Color = pixelcolor::Gray8;
+        type Error = Infallible;
+
+        fn draw_iter<I: IntoIterator<Item = Pixel<Self::Color>>>(
+            &mut self,
+            _: I,
+        ) -> Result<(), Infallible> {
+            panic!("pixel by pixel")
+        }
+
+        fn fill_solid(&mut self, area: &Rectangle, _: Self::Color) -> Result<(), Infallible> {
+            self.0.push((area.top_left.x, area.top_left.y, area.size.width));
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn shapes_are_where_they_are_on_a_display_without_end() {
+        let corners = [[0, 0], [4, 0], [0, 4]].map(|p| p.map(I16F16::from_num));
+        let color = Gray8::WHITE.into();
+        let mut display = Endless(Vec::new());
+        Filled::new(Triangle(corners), Fill::Hard { color }).draw(&mut display).unwrap();
+        assert_eq!(display.0, [(0, 0, 3), (0, 1, 2), (0, 2, 1)]);
+        let over = pixelcolor::Gray8::new(0);
+        display.0.clear();
+        let smooth = Filled::new(Triangle(corners), Fill::Smooth { color, over });
+        smooth.draw(&mut display).unwrap();
+        assert!(
+            display.0.iter().all(|&(x, y, width)| x + width as i32 <= 4 && (0..4).contains(&y))
+        );
     }
 }

@@ -167,8 +167,9 @@ impl<'a, D: DrawTarget> OnDisplay<'a, D> {
     #[inline]
     fn row(&self, x: usize, y: usize, length: usize) -> Rectangle {
         let Point { x: left, y: top } = self.area.top_left;
-        let from =
-            |start: i32, v: usize| start.saturating_add(i32::try_from(v).unwrap_or(i32::MAX));
+        let from = |start: i32, v: usize| {
+            start.saturating_add_unsigned(u32::try_from(v).unwrap_or(u32::MAX))
+        };
         let width = u32::try_from(length).unwrap_or(u32::MAX);
         Rectangle::new(Point::new(from(left, x), from(top, y)), Size::new(width, 1))
     }

@@ -5,9 +5,10 @@
 //! integral `t^2 / (2 w)` over an edge that takes a width `w` of the row. The sum is what is inside.
 
 use super::{BITS, Polygon, Side};
+use super::{Origin, fill_run, placed};
 use crate::blend::Alpha;
 use crate::coverage::WHOLE;
-use crate::framebuffer::{Target, run};
+use crate::framebuffer::Target;
 use crate::math::{high, low, normalized, shared_reciprocal, signed, unsigned};
 use crate::vertex::Rect;
 
@@ -153,7 +154,7 @@ pub(crate) fn fill_smooth<T, C: Copy>(
     target: &mut T,
     polygon: &Polygon<'_>,
     window: Rect,
-    origin: (i32, i32),
+    origin: Origin,
     color: Alpha<C>,
 ) where
     T: Target<Color = Alpha<C>>,
@@ -175,25 +176,12 @@ pub(crate) fn fill_smooth<T, C: Copy>(
                 color.part(part_of(before + added))
             });
             if start < end {
-                let ((to, _), (y, _)) = (run(start + origin.0, start), run(row + origin.1, 0));
-                target.write(to, y, colors);
+                let (x, y) = placed((start, row), origin);
+                target.write(x, y, colors);
             }
             sum += pieces.iter().map(|piece| i32::from(piece.height) << FINE).sum::<i32>();
             (x, rest) = (end.max(x), others);
         }
-    }
-}
-
-/// Fills a run of a row with one colour, if any.
-fn fill_run<T: Target>(
-    target: &mut T,
-    (x0, x1, row): (i32, i32, i32),
-    (left, top): (i32, i32),
-    color: Option<T::Color>,
-) {
-    if let Some(color) = color.filter(|_| x0 < x1) {
-        let ((x, length), (y, _)) = (run(x0 + left, x1 + left), run(row + top, 0));
-        target.fill(x, y, length, color);
     }
 }
 

@@ -1,7 +1,8 @@
 //! Hard edges: the pixels whose centres are inside, by the same rule as a triangle's.
 
 use super::{BITS, PIXEL, Polygon, Side};
-use crate::framebuffer::{Target, run};
+use super::{Origin, fill_run};
+use crate::framebuffer::Target;
 use crate::math::saturate;
 use crate::vertex::Rect;
 
@@ -62,7 +63,7 @@ pub(crate) fn fill<T: Target>(
     target: &mut T,
     polygon: &Polygon<'_>,
     window: Rect,
-    (left, top): (i32, i32),
+    origin: Origin,
     color: T::Color,
 ) {
     let (first, end) = polygon.rows();
@@ -80,11 +81,7 @@ pub(crate) fn fill<T: Target>(
                 x0 = *column;
             } else if around == 0 {
                 let (x0, x1) = (x0.max(window.x0), (*column).min(window.x1));
-                if x0 < x1 {
-                    let (x, length) = run(x0 + left, x1 + left);
-                    let (y, _) = run(row + top, row + top);
-                    target.fill(x, y, length, color);
-                }
+                fill_run(target, (x0, x1, row), origin, Some(color));
             }
         }
     }

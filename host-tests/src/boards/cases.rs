@@ -256,3 +256,21 @@ fn pico_panel(
     };
     Ok((passed, compared))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ram_is_read_off_a_map() {
+        let map = "     VMA      LMA     Size Align Out     In      Symbol\n\
+                   c0       c0     b16c     4 .text\n\
+             20000000     e000       10     4 .data\n\
+             20000000     e000       10     4         main.o:(.data.X)\n\
+             20000010 20000010     34a0     8 .bss\n\
+             20000010 20000010     34a0     1                 MEMORY\n\
+                    0        0     1234     1 .debug_info\n";
+        assert_eq!(ram_of_map(map), 0x34b0);
+        assert_eq!(ram_of_map(""), 0);
+    }
+}

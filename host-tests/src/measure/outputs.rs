@@ -122,7 +122,9 @@ pub fn check(costs: &[Cost]) -> Result<(), String> {
                 let key = (isa, name, workload, "quick8");
                 costs.iter().find(|c| (c.isa, c.name.as_str(), c.workload, c.tier) == key)
             };
-            let [Some(bands), Some(frame)] = THIRDS.map(of) else { continue };
+            let [Some(bands), Some(frame)] = THIRDS.map(of) else {
+                return Err(format!("{isa}: {} by {THIRDS:?} was not drawn", workload.name()));
+            };
             let ratio = bands.instructions as f64 / frame.instructions as f64;
             if ratio > MOST {
                 let (name, workload) = (&bands.name, workload.name());
