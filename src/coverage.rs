@@ -73,6 +73,15 @@ pub(crate) struct Ramp {
     /// `1 / long`, Q16: 1 to `sqrt 2`; and `1 / short`, Q31, or 0, for the larger and the lesser part of the normal.
     inverse_long: i32,
     inverse_short: u32,
+    /// Whether pixels that it cuts are left out.
+    bare: bool,
+}
+
+/// A line that cuts pixels, and its ramp.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cut {
+    pub(crate) edge: EdgeFunction,
+    pub(crate) ramp: Ramp,
 }
 
 impl Ramp {
@@ -100,6 +109,7 @@ impl Ramp {
             down: 46 - up / 2,
             inverse_long: 0,
             inverse_short: 0,
+            bare: false,
         };
         ramp.normal = [ramp.normalized(x), ramp.normalized(y)];
         let [long, short] = ramp.parts();
@@ -119,6 +129,18 @@ impl Ramp {
     #[inline]
     fn normalized(&self, v: i32) -> i32 {
         low((i64::from(v) * i64::from(self.inverse)) >> self.down)
+    }
+
+    /// The same, but pixels that it cuts are left out.
+    #[inline]
+    pub(crate) const fn bare(self) -> Self {
+        Self { bare: true, ..self }
+    }
+
+    /// Whether pixels that it cuts are left out.
+    #[inline]
+    pub(crate) const fn is_bare(&self) -> bool {
+        self.bare
     }
 
     /// Below this the edge function is, in magnitude, where the edge cuts the square.
@@ -179,17 +201,40 @@ fn product(a: i32, b: i32) -> i32 {
 /// triangle: on the other side of the eye.
 #[inline(never)]
 pub(crate) fn covered(ramps: &[Option<Ramp>; 3], values: &[i64; 3], external: bool) -> i32 {
-    let ([r, s, t], [x, y, z]) = (ramps, *values);
-    let cut = |ramp: &Option<Ramp>, value| ramp.as_ref().map_or(0, |ramp| ramp.cut_off(value));
+    let ([r, s, t], [x, y, z]) = (ramps.each_ref().map(Option::as_ref), *values);
+    let cut = |ramp: Option<&Ramp>, value| ramp.map_or(0, |ramp| ramp.cut_off(value));
     let (u, v, w) = (cut(r, x), cut(s, y), cut(t, z));
     let (a, b, c) = (both(r, s, u, v), both(s, t, v, w), both(t, r, w, u));
     let thrice = if external { a.min(b).min(c) } else { 0 };
     (WHOLE - u - v - w + a + b + c - thrice).clamp(0, WHOLE)
 }
 
+/// How much of a pixel is left, Q16, by the two that cut off most of it: of a triangle's edges and of lines beside it.
+#[inline(never)]
+pub(crate) fn left(
+    ramps: &[Option<Ramp>; 3],
+    values: &[i64; 3],
+    beside: &[Option<Cut>],
+    (x, y): (i32, i32),
+) -> i32 {
+    let own = ramps.iter().zip(values).map(|(ramp, value)| (ramp.as_ref(), *value));
+    let lines = beside.iter().flatten().map(|cut| (Some(&cut.ramp), cut.edge.at(x, y)));
+    let (mut first, mut second) = ((None, 0), (None, 0));
+    for (ramp, value) in own.chain(lines) {
+        let off = ramp.map_or(0, |ramp| ramp.cut_off(value));
+        if off > first.1 {
+            (first, second) = ((ramp, off), first);
+        } else if off > second.1 {
+            second = (ramp, off);
+        }
+    }
+    let ((one, u), (other, v)) = (first, second);
+    (WHOLE - u - v + both(one, other, u, v)).clamp(0, WHOLE)
+}
+
 /// What two edges both cut off, which cut off `u` and `v`.
 #[inline]
-fn both(first: &Option<Ramp>, second: &Option<Ramp>, u: i32, v: i32) -> i32 {
+fn both(first: Option<&Ramp>, second: Option<&Ramp>, u: i32, v: i32) -> i32 {
     let (Some(first), Some(second)) = (first, second) else {
         return 0;
     };

@@ -14,6 +14,7 @@ mod projected;
 mod reach;
 mod shade;
 mod shape;
+mod silhouette;
 mod small;
 mod smooth;
 mod tiny;

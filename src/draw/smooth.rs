@@ -4,25 +4,23 @@
 //! a smooth edge cuts one by one.
 
 use super::shade::Shading;
-use super::{Counts, Frame, Outcome, rejected};
+use super::{Frame, Outcome, rejected};
 use crate::blend::Alpha;
 use crate::clip::Hither;
-use crate::coverage::{Edges, Ramp, covered};
+use crate::coverage::{Cut, Edges, Ramp, covered, left};
 use crate::depth::{DepthPlane, DepthTest, limits};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::{Target, run};
 use crate::interpolation::{Correction, Interpolates, Mode, Run, Varyings};
-use crate::mesh::{Mesh, StoredPosition, VertexStage};
-use crate::setup::{Facing, Part, Setup, Tier, doubled_area, facing};
+use crate::setup::{Part, Setup, Tier};
 use crate::span::Span;
 use crate::traversal::{ClipWalk, SmoothSpans};
 use crate::vertex::{Outside, Position, Rect, Vertex};
-use core::slice::from_mut;
 use fixed::types::I16F16;
 
 /// Which pixels of a triangle with smooth edges are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pixels {
+pub(super) enum Pixels {
     All,
     /// Those that no smooth edge cuts.
     Inside,
@@ -30,10 +28,21 @@ enum Pixels {
     Cut,
 }
 
+/// What cuts the pixels of a triangle.
+pub(super) struct Cuts<const M: usize> {
+    /// Its smooth edges.
+    pub(super) smooth: Edges,
+    /// Those of them whose pixels are left out.
+    pub(super) bare: Edges,
+    /// Lines beside it that are its neighbours' smooth edges, on whose inner side it is.
+    pub(super) beside: [Option<Cut>; M],
+}
+
 /// What pixels that an edge cuts are made from.
-struct Fringe<'a, F, const N: usize> {
+struct Fringe<'a, F, const N: usize, const M: usize> {
     setup: &'a Setup,
     ramps: [Option<Ramp>; 3],
+    beside: &'a [Option<Cut>; M],
     /// Whether a vertex is not in front of the eye.
     external: bool,
     shading: &'a Shading<'a, F, N>,
@@ -41,7 +50,7 @@ struct Fringe<'a, F, const N: usize> {
     depths: [u32; 2],
 }
 
-impl<F, const N: usize> Fringe<'_, F, N> {
+impl<F, const N: usize, const M: usize> Fringe<'_, F, N, M> {
     /// The varyings at a pixel; outside of the triangle between the vertices' too.
     #[inline]
     fn varyings<I: Correction>(&self, pixel: Span) -> [I16F16; N] {
@@ -60,6 +69,13 @@ impl<F, const N: usize> Fringe<'_, F, N> {
         let [least, most] = self.depths;
         let depth = self.shading.depth.map(|plane| plane.beyond(self.setup, pixel.x0, pixel.y));
         depth.unwrap_or(least).max(least).min(most)
+    }
+
+    /// How much of a pixel is covered, Q16, by the edge functions there.
+    #[inline]
+    fn covered(&self, x: i32, y: i32, values: &[i64; 3]) -> i32 {
+        let own = covered(&self.ramps, values, self.external);
+        if M == 0 { own } else { own.min(left(&self.ramps, values, self.beside, (x, y))) }
     }
 
     /// Whether a pixel's centre is covered, by the edge functions there.
@@ -144,15 +160,16 @@ where
         if edges == Edges::NONE {
             return self.draw_snapped(vertices, fragment);
         }
-        self.draw_some(vertices, edges, Pixels::All, fragment)
+        let cuts = Cuts { smooth: edges, bare: Edges::NONE, beside: [] };
+        self.draw_some(vertices, &cuts, Pixels::All, fragment)
     }
 
     /// Draws some pixels of a triangle.
     #[inline(never)]
-    fn draw_some<F, const N: usize>(
+    pub(super) fn draw_some<F, const N: usize, const M: usize>(
         &mut self,
         vertices: [&Vertex<T, N, P>; 3],
-        edges: Edges,
+        cuts: &Cuts<M>,
         pixels: Pixels,
         fragment: &F,
     ) -> Outcome
@@ -191,7 +208,8 @@ where
             let setup = &if part == Part::Front { *setup } else { setup.mirrored() };
             let fringe = Fringe {
                 setup,
-                ramps: ramps(setup, edges),
+                ramps: ramps(setup, cuts),
+                beside: &cuts.beside,
                 external: signs.iter().any(|sign| *sign < 1),
                 shading: &shading,
                 depths: limits(vertices),
@@ -208,16 +226,17 @@ where
 
     /// Draws what pixels a part has of a box.
     #[inline(never)]
-    fn draw_touched<F, const N: usize>(
+    fn draw_touched<F, const N: usize, const M: usize>(
         &mut self,
-        fringe: &Fringe<'_, F, N>,
+        fringe: &Fringe<'_, F, N, M>,
         bounds: Rect,
         clip: Option<&mut ClipWalk<P>>,
         pixels: Pixels,
     ) where
         F: Fragment<Alpha<K>, N>,
     {
-        for (touched, inside) in SmoothSpans::new(fringe.setup, &fringe.ramps, bounds, clip) {
+        let edges = (&fringe.setup.edges, &fringe.ramps);
+        for (touched, inside) in SmoothSpans::new(edges, fringe.beside, bounds, clip) {
             if pixels != Pixels::Cut && inside.x0 < inside.x1 {
                 self.draw_span(fringe.setup, inside, fringe.shading);
             }
@@ -230,8 +249,11 @@ where
 
     /// Draws pixels of a row that smooth edges may cut.
     #[inline(never)]
-    fn draw_fringe<F, const N: usize>(&mut self, fringe: &Fringe<'_, F, N>, span: Span)
-    where
+    fn draw_fringe<F, const N: usize, const M: usize>(
+        &mut self,
+        fringe: &Fringe<'_, F, N, M>,
+        span: Span,
+    ) where
         F: Fragment<Alpha<K>, N>,
     {
         let Span { y, x0, x1 } = span;
@@ -246,7 +268,7 @@ where
             let x = next;
             next += 1;
             let values = fringe.setup.edges_at(x, y);
-            (Span { y, x0: x, x1: x + 1 }, values, covered(&fringe.ramps, &values, fringe.external))
+            (Span { y, x0: x, x1: x + 1 }, values, fringe.covered(x, y, &values))
         };
         if D::BITS == 0 {
             let colors = (0..length).map(|_| {
@@ -269,119 +291,14 @@ where
             });
         });
     }
-
-    /// Draws an indexed mesh as [`draw`](Self::draw) does, with smooth silhouettes: an edge is smooth where the face across it is
-    /// missing, or faces the other way. `neighbours` says which it is: see [`Mesh::neighbours`]; faces beyond its end have no
-    /// smooth edges.
-    ///
-    /// Pixels that no silhouette cuts come first, and those that one cuts over them, so the order of a mesh's faces does not
-    /// matter, if depth is stored ([`with_depth_stored`](Frame::with_depth_stored)). What is behind the mesh has to be drawn before
-    /// it. Each face is looked at with its neighbours, and those with a smooth edge are drawn twice.
-    ///
-    /// A face without such an edge covers whole pixels, though the silhouette of the next one may cut them: where faces at the
-    /// silhouette are seen so obliquely that they are thinner than a pixel, it is as hard as ever there.
-    ///
-    /// ```
-    /// # use hither::{Alpha, ClipVertex, Cull, DepthBuffer, Flat, Frame, Framebuffer, Gray8, Hither, I16F16, Mat4, Mesh};
-    /// # use hither::{Translucent, Vertex};
-    /// # let square = [[-6i16, -7, 0], [7, -6, 0], [6, 7, 0], [-7, 6, 0]];
-    /// # let mesh = Mesh::try_new(&square, 3, &[(); 4], &[[0, 1, 2], [0, 2, 3]])?;
-    /// # let (mut words, mut depth_words) = ([0; 64], [u16::MAX; 64]);
-    /// # let mut frame = Frame::new(Framebuffer::<Gray8>::try_new(&mut words, 8, 8)?)?
-    /// #     .with_hither(Hither::new(I16F16::ONE)?)
-    /// #     .with_depth(DepthBuffer::try_new(&mut depth_words, 8, 8)?)?;
-    /// let mut neighbours = [[0; 3]; 2];
-    /// mesh.neighbours(&mut neighbours)?;
-    /// let mut cache = [Vertex::EMPTY; 4];
-    /// let mut smooth = frame.blended::<Alpha<Gray8>>().with_depth_stored();
-    /// let white = Translucent(Flat(Gray8::WHITE), 255);
-    /// smooth.draw_smooth_mesh(&mesh, &neighbours, &Mat4::IDENTITY, &white, &mut cache);
-    /// # assert_eq!((words[0] < 255, words[27], words[36]), (true, 255, 255));
-    /// # Ok::<(), Box<dyn core::error::Error>>(())
-    /// ```
-    pub fn draw_smooth_mesh<Q, A, S, F, const N: usize>(
-        &mut self,
-        mesh: &Mesh<'_, Q, A>,
-        neighbours: &[[u16; 3]],
-        stage: &S,
-        fragment: &F,
-        cache: &mut [Vertex<T, N, P>],
-    ) -> Counts
-    where
-        Q: StoredPosition,
-        S: VertexStage<A, N>,
-        F: Fragment<Alpha<K>, N>,
-        W: Interpolates<N>,
-    {
-        self.transform(mesh, stage, 0, cache);
-        let corners = |frame: &Self, indices: [u16; 3]| {
-            indices.map(|index| frame.vertex(mesh, stage, index, cache))
-        };
-        let mut counts = Counts::default();
-        for pixels in [Pixels::Inside, Pixels::Cut] {
-            for (face, indices) in mesh.triangles().iter().enumerate() {
-                let vertices = corners(self, *indices);
-                let mut edges = Edges::NONE;
-                let own = self.facing_of(vertices.each_ref());
-                for (i, across) in neighbours.get(face).into_iter().flatten().enumerate() {
-                    let across = mesh.triangles().get(usize::from(*across));
-                    let other =
-                        across.map(|indices| self.facing_of(corners(self, *indices).each_ref()));
-                    // One that is seen edge-on is too thin to tell.
-                    if other.is_none_or(|other| other.is_some() && other != own) {
-                        edges = edges.with(i);
-                    }
-                }
-                let fragment = fragment.for_face(face);
-                if pixels == Pixels::Inside {
-                    counts.add(if edges == Edges::NONE {
-                        self.draw_snapped(vertices.each_ref(), &fragment)
-                    } else {
-                        self.draw_some(vertices.each_ref(), edges, pixels, &fragment)
-                    });
-                } else if edges != Edges::NONE {
-                    self.draw_some(vertices.each_ref(), edges, pixels, &fragment);
-                }
-            }
-        }
-        counts
-    }
-
-    /// A vertex of a mesh, from the cache or transformed anew.
-    fn vertex<Q, A, S, const N: usize>(
-        &self,
-        mesh: &Mesh<'_, Q, A>,
-        stage: &S,
-        index: u16,
-        cache: &[Vertex<T, N, P>],
-    ) -> Vertex<T, N, P>
-    where
-        Q: StoredPosition,
-        S: VertexStage<A, N>,
-        W: Interpolates<N>,
-    {
-        let index = usize::from(index);
-        cache.get(index).copied().unwrap_or_else(|| {
-            let mut vertex = Vertex::EMPTY;
-            self.transform(mesh, stage, index, from_mut(&mut vertex));
-            vertex
-        })
-    }
-
-    /// Which way a triangle faces, if it has an area.
-    fn facing_of<const N: usize>(&self, vertices: [&Vertex<T, N, P>; 3]) -> Option<Facing> {
-        let positions = vertices.map(|v| &v.position);
-        if positions.iter().all(|position| position.is_projected()) {
-            return facing(doubled_area(&T::corners(positions)));
-        }
-        let in_pixels = positions.map(|position| T::in_pixels(position, &self.viewport));
-        T::orient(positions, &in_pixels, &self.viewport).map(|(facing, _)| facing)
-    }
 }
 
 /// The ramps of a triangle's smooth edges. An edge function belongs to the vertex opposite.
-fn ramps(setup: &Setup, edges: Edges) -> [Option<Ramp>; 3] {
+fn ramps<const M: usize>(setup: &Setup, cuts: &Cuts<M>) -> [Option<Ramp>; 3] {
     let [first, second, third] = &setup.edges;
-    let ramp = |i, edge| if edges.contains(i) { Ramp::new(edge) } else { None };
+    let ramp = |i, edge| {
+        let ramp = if cuts.smooth.contains(i) { Ramp::new(edge) } else { None };
+        ramp.map(|ramp| if cuts.bare.contains(i) { ramp.bare() } else { ramp })
+    };
     [ramp(1, first), ramp(2, second), ramp(0, third)]
 }

@@ -5,39 +5,43 @@
 //! intervals, between edges that are moved out or in by that, exactly. Hard edges are where they are.
 
 use super::{ClipWalk, Edge, Edges, biased, half_plane};
-use crate::coverage::Ramp;
-use crate::setup::{EdgeFunction, Setup};
+use crate::coverage::{Cut, Ramp};
+use crate::setup::EdgeFunction;
 use crate::span::Span;
 use crate::vertex::Rect;
 
 /// Spans of touched pixels, each with the span that is wholly inside; from the top.
 #[derive(Debug)]
-pub(crate) struct SmoothSpans<'a, const P: usize> {
+pub(crate) struct SmoothSpans<'a, const P: usize, const M: usize> {
     touched: Edges,
     inside: Edges,
+    beside: [Option<(Edge<i64>, bool)>; M],
     clip: Option<&'a mut ClipWalk<P>>,
     bounds: Rect,
     y: i32,
 }
 
-impl<'a, const P: usize> SmoothSpans<'a, P> {
-    /// Spans in `bounds`, cut by `clip`; edges with a ramp are smooth.
+impl<'a, const P: usize, const M: usize> SmoothSpans<'a, P, M> {
+    /// Spans in `bounds`, cut by `clip`; edges with a ramp are smooth. Lines `beside` the triangle cut pixels of it too.
     #[inline(never)]
     pub(crate) fn new(
-        setup: &Setup,
-        ramps: &[Option<Ramp>; 3],
+        (edges, ramps): (&[EdgeFunction; 3], &[Option<Ramp>; 3]),
+        beside: &[Option<Cut>; M],
         bounds: Rect,
         clip: Option<&'a mut ClipWalk<P>>,
     ) -> Self {
         let walk = |edge: &EdgeFunction, ramp: &Option<Ramp>, inside: bool| match ramp {
             None => biased(edge, &bounds),
-            Some(ramp) if inside => half_plane(edge, &bounds, ramp.reach()),
+            Some(ramp) if inside || ramp.is_bare() => half_plane(edge, &bounds, ramp.reach()),
             Some(ramp) => half_plane(edge, &bounds, 1 - ramp.reach()),
         };
-        let ([e, f, g], [r, s, t]) = (&setup.edges, ramps);
+        let ([e, f, g], [r, s, t]) = (edges, ramps);
+        let line =
+            |Cut { edge, ramp }: &Cut| (half_plane(edge, &bounds, ramp.reach()), ramp.is_bare());
         Self {
             touched: [walk(e, r, false), walk(f, s, false), walk(g, t, false)],
             inside: [walk(e, r, true), walk(f, s, true), walk(g, t, true)],
+            beside: beside.each_ref().map(|cut| cut.as_ref().map(line)),
             clip,
             bounds,
             y: bounds.y0,
@@ -55,7 +59,7 @@ impl<'a, const P: usize> SmoothSpans<'a, P> {
     }
 }
 
-impl<const P: usize> Iterator for SmoothSpans<'_, P> {
+impl<const P: usize, const M: usize> Iterator for SmoothSpans<'_, P, M> {
     /// Touched, and inside of that; where nothing is inside, an empty span at its end.
     type Item = (Span, Span);
 
@@ -64,7 +68,14 @@ impl<const P: usize> Iterator for SmoothSpans<'_, P> {
             let whole = Span { y: self.y, x0: self.bounds.x0, x1: self.bounds.x1 };
             self.y += 1;
             let mut touched = Self::row(&mut self.touched, whole, &self.bounds);
-            let inside = Self::row(&mut self.inside, whole, &self.bounds);
+            let mut inside = Self::row(&mut self.inside, whole, &self.bounds);
+            for (line, bare) in self.beside.iter_mut().flatten() {
+                line.follow(1, &self.bounds, &mut inside);
+                if *bare {
+                    (touched.x0, touched.x1) =
+                        (touched.x0.max(inside.x0), touched.x1.min(inside.x1));
+                }
+            }
             if touched.x0 >= touched.x1 {
                 continue;
             }
