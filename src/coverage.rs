@@ -317,4 +317,23 @@ mod tests {
         close(share([edge(600, 800), edge(300, 400), None], [0, 0, 0]), 0.5);
         close(share([edge(600, 800), edge(300, 400), edge(60, 80)], [0, 0, 0]), 0.5);
     }
+
+    /// Lines beside a triangle cut as its own edges do; of more than two the two that cut off most.
+    #[test]
+    fn lines_beside_cut_as_edges_do() {
+        let edge = |a: i64, b: i64| Ramp::new(&EdgeFunction { a, b, c: 0 });
+        let line = |a: i64, b: i64, c: i64| {
+            let edge = EdgeFunction { a, b, c };
+            Ramp::new(&edge).map(|ramp| Cut { edge, ramp })
+        };
+        let ramps = [edge(1000, 0), edge(600, 800), None];
+        for c in (-3000..3000).step_by(50) {
+            let beside = [line(0, 1000, c), None, line(600, 800, 9000)];
+            let own = [edge(1000, 0), beside[0].map(|cut| cut.ramp), None];
+            let got = left(&[ramps[0], None, None], &[100, 0, 0], &beside, (0, 0));
+            assert_eq!(got, covered(&own, &[100, c, 0], false), "{c}");
+            let lesser = left(&ramps, &[100, 690, 0], &beside, (0, 0));
+            assert!(lesser <= got, "{c}: {lesser} of {got}");
+        }
+    }
 }

@@ -95,10 +95,13 @@ where
     ///
     /// Pixels that no silhouette cuts come first, and those that one cuts over them, so the order of a mesh's faces does not
     /// matter, if depth is stored ([`with_depth_stored`](Frame::with_depth_stored)). What is behind the mesh has to be drawn before
-    /// it. Each face is looked at with its neighbours, and those with a smooth edge are drawn twice.
+    /// it. The faces around each corner are looked at, twice, and those at a silhouette are drawn twice.
     ///
-    /// A face without such an edge covers whole pixels, though the silhouette of the next one may cut them: where faces at the
-    /// silhouette are seen so obliquely that they are thinner than a pixel, it is as hard as ever there.
+    /// Over the pixels that a silhouette cuts, the share is off by 4.4 % of a pixel on average for a torus, and by 5.4 % for a
+    /// teapot whose faces are of a few pixels, shown from both sides (host test `smooth`). Pixels of all faces that share a
+    /// corner are cut by its silhouettes, where the outline is convex there. Others cover whole pixels: where more than one face
+    /// lies in the width of a pixel, and where the outline is concave. Where both sides are shown, front faces draw the pixels
+    /// that an edge between a front and a back face cuts.
     ///
     /// ```
     /// # use hither::{Alpha, ClipVertex, Cull, DepthBuffer, Flat, Frame, Framebuffer, Gray8, Hither, I16F16, Mat4, Mesh};
@@ -138,14 +141,24 @@ where
         for pixels in [Pixels::Inside, Pixels::Cut] {
             for (face, indices) in mesh.triangles().iter().enumerate() {
                 let vertex = |index| self.vertex(mesh, stage, index, cache);
-                let vertices = indices.map(vertex);
-                let cuts = self.silhouettes(&faces, face, vertex);
+                let facing_at = |indices: [u16; 3]| {
+                    let [a, b, c] = indices.map(|index| cache.get(usize::from(index)));
+                    // Most are not copied.
+                    if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+                        return self.facing_of([a, b, c]);
+                    }
+                    self.facing_of(indices.map(vertex).each_ref())
+                };
+                let cuts = self.silhouettes(&faces, face, (facing_at, vertex));
+                if pixels == Pixels::Cut && !cuts.as_ref().is_some_and(Cuts::shows_any) {
+                    continue;
+                }
                 let fragment = fragment.for_face(face);
+                let vertices = indices.map(vertex);
                 let vertices = vertices.each_ref();
                 let outcome = match &cuts {
                     Some(cuts) => self.draw_some(vertices, cuts, pixels, &fragment),
-                    None if pixels == Pixels::Inside => self.draw_snapped(vertices, &fragment),
-                    None => continue,
+                    None => self.draw_snapped(vertices, &fragment),
                 };
                 if pixels == Pixels::Inside {
                     counts.add(outcome);
@@ -160,16 +173,16 @@ where
         &self,
         faces: &Faces<'_>,
         face: usize,
-        vertex: impl Fn(u16) -> Vertex<T, N, P>,
+        (facing_at, vertex): (impl Fn([u16; 3]) -> Option<Facing>, impl Fn(u16) -> Vertex<T, N, P>),
     ) -> Option<Cuts<6>> {
         let triangle = *faces.triangles.get(face)?;
-        let own = self.facing_of(triangle.map(&vertex).each_ref())?;
+        let own = facing_at(triangle)?;
         if self.cull.hides(own) {
             return None;
         }
         let seen = |other: u16| match faces.triangles.get(usize::from(other)) {
             None => Across::Border,
-            Some(other) => match self.facing_of(other.map(&vertex).each_ref()) {
+            Some(other) => match facing_at(*other) {
                 Some(other) if other != own => Across::Fold,
                 _ => Across::Same,
             },
@@ -178,12 +191,10 @@ where
         let covers = own == Facing::Front || self.cull.hides(Facing::Front);
         let bare = |across| across == Across::Fold && !covers;
         let mut cuts = Cuts { smooth: Edges::NONE, bare: Edges::NONE, beside: [None; 6] };
-        let mut any = false;
         for ((corner, index), pair) in (0..).zip(triangle).zip(cuts.beside.chunks_exact_mut(2)) {
             let Some(out) = faces.silhouette((face, corner), true, seen, |_| true) else {
                 continue;
             };
-            any = true;
             if out.face == face {
                 cuts.smooth = cuts.smooth.with(corner);
                 if bare(out.across) {
@@ -191,8 +202,7 @@ where
                 }
             }
             // All faces of the corner are within 180 degrees.
-            let convex =
-                |far| self.facing_of([index, out.far, far].map(&vertex).each_ref()) == Some(own);
+            let convex = |far| facing_at([index, out.far, far]) == Some(own);
             let back = faces.silhouette((out.face, out.corner), false, seen, convex);
             let Some(back) = back else { continue };
             let wedge = [index, out.far, back.far].map(&vertex);
@@ -205,7 +215,7 @@ where
                 *cut = ramp.map(|ramp| Cut { edge, ramp });
             }
         }
-        any.then_some(cuts)
+        cuts.any().then_some(cuts)
     }
 
     /// The set-up of a corner of the outline, if all of it is in front of the eye.

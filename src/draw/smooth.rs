@@ -38,6 +38,18 @@ pub(super) struct Cuts<const M: usize> {
     pub(super) beside: [Option<Cut>; M],
 }
 
+impl<const M: usize> Cuts<M> {
+    /// Whether anything cuts.
+    pub(super) fn any(&self) -> bool {
+        self.smooth != Edges::NONE || self.beside.iter().any(Option::is_some)
+    }
+
+    /// Whether something cuts pixels that are not left out.
+    pub(super) fn shows_any(&self) -> bool {
+        self.smooth != self.bare || self.beside.iter().flatten().any(|cut| !cut.ramp.is_bare())
+    }
+}
+
 /// What pixels that an edge cuts are made from.
 struct Fringe<'a, F, const N: usize, const M: usize> {
     setup: &'a Setup,

@@ -70,10 +70,11 @@ impl<const P: usize, const M: usize> Iterator for SmoothSpans<'_, P, M> {
             let mut touched = Self::row(&mut self.touched, whole, &self.bounds);
             let mut inside = Self::row(&mut self.inside, whole, &self.bounds);
             for (line, bare) in self.beside.iter_mut().flatten() {
-                line.follow(1, &self.bounds, &mut inside);
+                let mut span = whole;
+                line.follow(1, &self.bounds, &mut span);
+                (inside.x0, inside.x1) = (inside.x0.max(span.x0), inside.x1.min(span.x1));
                 if *bare {
-                    (touched.x0, touched.x1) =
-                        (touched.x0.max(inside.x0), touched.x1.min(inside.x1));
+                    (touched.x0, touched.x1) = (touched.x0.max(span.x0), touched.x1.min(span.x1));
                 }
             }
             if touched.x0 >= touched.x1 {
