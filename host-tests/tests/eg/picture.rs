@@ -6,10 +6,10 @@ use embedded_graphics::pixelcolor::{self, PixelColor};
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use hither::{
-    Affine, AsPixelColor, Balance, Correction, DepthBuffer, DepthTest, DisplayColor, Exact, Flat,
-    Fragment, Frame, Framebuffer, FromUnit, Gouraud, Gray8, Hither, I16F16, OnDisplay, Packed,
-    Perspective, PerspectiveEvery, PixelFormat, Preset, Quick, Rect, Rgb565, Rgb565Be, Rgb888,
-    Target, Texture, Textured, Tier, Viewport, ViewportSize,
+    Affine, AsPixelColor, Balance, Binary, Correction, DepthBuffer, DepthTest, DisplayColor, Exact,
+    Flat, Fragment, Frame, Framebuffer, FromUnit, Gouraud, Gray4, Gray8, Hither, I16F16, OnDisplay,
+    Packed, Perspective, PerspectiveEvery, PixelFormat, Preset, Quick, Rect, Rgb565, Rgb565Be,
+    Rgb888, Target, Texture, Textured, Tier, Viewport, ViewportSize,
 };
 use host_tests::oracle::Rng;
 use std::fmt::Debug;
@@ -221,9 +221,9 @@ fn colours_of_other_displays() {
     check::<Rgb888, pixelcolor::Bgr888>(14);
     check::<Rgb888, pixelcolor::Rgb666>(15);
     check::<Rgb888, pixelcolor::Bgr666>(16);
-    check::<Gray8, pixelcolor::Gray4>(17);
+    check::<Gray4, pixelcolor::Gray4>(17);
     check::<Gray8, pixelcolor::Gray2>(18);
-    check::<Gray8, pixelcolor::BinaryColor>(19);
+    check::<Binary, pixelcolor::BinaryColor>(19);
 }
 
 #[test]
