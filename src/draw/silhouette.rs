@@ -1,7 +1,7 @@
 //! Meshes with smooth silhouettes.
 //!
-//! A face's pixels are cut by its own smooth edges, and by those of its neighbours that end in its corners: where the
-//! outline is convex there, a face is on the inner side of both.
+//! A face's pixels are cut by its own smooth edges, and by those that end in its corners: where the outline is convex there,
+//! a face is on the inner side of both. Else faces that are thin beside a silhouette would cover whole pixels of its rim.
 
 use super::smooth::{Cuts, Pixels};
 use super::{Counts, Frame};
@@ -16,7 +16,8 @@ use crate::setup::{Facing, Setup, Tier, doubled_area, facing};
 use crate::vertex::{Position, Vertex};
 use core::slice::from_mut;
 
-/// How many faces around a corner are looked at for a silhouette.
+/// How many faces around a corner are looked at for a silhouette, on either side: where there are more, only a face's own
+/// edges cut it.
 const MOST_AROUND: u32 = 16;
 
 /// What is across an edge.
