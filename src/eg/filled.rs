@@ -98,7 +98,6 @@ mod tests {
     use embedded_graphics_core::Pixel;
     use embedded_graphics_core::geometry::{Dimensions, Point, Size};
     use embedded_graphics_core::pixelcolor;
-    use embedded_graphics_core::prelude::GrayColor;
     use embedded_graphics_core::primitives::Rectangle;
     use fixed::types::I16F16;
     use std::vec::Vec;

@@ -119,7 +119,6 @@ mod tests {
     use crate::color::Gray8;
     use crate::vertex::Viewport;
     use embedded_graphics_core::pixelcolor;
-    use embedded_graphics_core::prelude::GrayColor;
     use std::vec::Vec;
 
     /// Colours of rows of four, without end, of which any number is passed over at once.
