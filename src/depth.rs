@@ -11,7 +11,7 @@ mod test_only;
 pub use test_only::TestOnly;
 
 pub use line::DepthBias;
-pub(crate) use line::DepthLine;
+pub(crate) use line::{DepthLine, ProjectedDepths};
 pub(crate) use plane::{DepthPlane, DepthRun, limits, projected, ranged};
 
 use crate::buffer::BufferSize;

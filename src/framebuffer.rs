@@ -3,7 +3,7 @@
 use crate::buffer::BufferSize;
 use crate::color::PixelFormat;
 use crate::math::index;
-use crate::traversal::Scan;
+use crate::traversal::{LineWalk, Scan};
 use crate::vertex::Rect;
 use bytemuck::Pod;
 
@@ -180,6 +180,26 @@ pub trait Target {
                 self.write(x + index(column), y + index(row), colors);
             }
             if !scan.turn() {
+                return;
+            }
+        }
+    }
+
+    /// Draws the pixels of a line, with one of `lanes` a pixel of the target: what `color` makes of it.
+    #[doc(hidden)]
+    #[inline]
+    fn write_line<L>(
+        &mut self,
+        lanes: &mut [L],
+        mut walk: LineWalk,
+        mut color: impl FnMut(&mut L, &LineWalk) -> Option<Self::Color>,
+    ) {
+        loop {
+            let (x, y) = walk.place();
+            if let Some(lane) = lanes.get_mut(walk.at()) {
+                self.write(index(x), index(y), core::iter::once(color(lane, &walk)));
+            }
+            if !walk.step() {
                 return;
             }
         }
@@ -542,6 +562,33 @@ impl<F: PixelFormat> Target for Framebuffer<'_, F> {
                 }
             }
             if !scan.turn() {
+                return;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn write_line<L>(
+        &mut self,
+        lanes: &mut [L],
+        mut walk: LineWalk,
+        mut color: impl FnMut(&mut L, &LineWalk) -> Option<F::Color>,
+    ) {
+        // As in `write_scan`.
+        let length = self.words.len().min(lanes.len());
+        let (Some(words), Some(lanes)) = (self.words.get_mut(..length), lanes.get_mut(..length))
+        else {
+            return;
+        };
+        loop {
+            let at = walk.at();
+            let (Some(word), Some(lane)) = (words.get_mut(at), lanes.get_mut(at)) else {
+                return;
+            };
+            if let Some(color) = color(lane, &walk) {
+                *word = F::encode(color);
+            }
+            if !walk.step() {
                 return;
             }
         }

@@ -28,7 +28,7 @@ mod tiny;
 #[cfg(feature = "heapless")]
 pub(crate) use exact::first_centres;
 pub(crate) use exact::{Anchored, determinant, outline};
-pub(crate) use line::Segment;
+pub(crate) use line::{ProjectedLine, Segment};
 #[cfg(feature = "heapless")]
 pub(crate) use outline::rows_of;
 pub(crate) use outline::{Corner, Outline, Place, bounds_of, doubled_area, facing};

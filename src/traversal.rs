@@ -22,7 +22,7 @@ mod side;
 mod smooth;
 
 pub(crate) use exact::Stepped;
-pub(crate) use line::LineRuns;
+pub(crate) use line::{LineRuns, LineWalk};
 pub(crate) use rows::Rows;
 use rows::ShortRows;
 pub(crate) use scan::Scan;

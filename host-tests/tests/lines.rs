@@ -253,7 +253,7 @@ impl Case {
     }
 }
 
-fn windows_show_the_same<T: Tier>(seed: u64, cases: usize) {
+fn windows_show_the_same<T: Tier, D: DepthWord>(seed: u64, cases: usize) {
     let mut rng = Rng::new(seed);
     let mut drawn = 0;
     for _ in 0..cases {
@@ -261,23 +261,23 @@ fn windows_show_the_same<T: Tier>(seed: u64, cases: usize) {
         case.bias = DepthBias(rng.choose(&[0, 1, 128, u16::MAX]));
         let oracle::Viewport { width, height } = case.viewport;
         let viewport = library_viewport(case.viewport);
-        let (whole, _) = case.whole::<T, u32>(false);
+        let (whole, _) = case.whole::<T, D>(false);
         drawn += whole.len();
-        assert_eq!(case.whole::<T, u32>(true).0, whole, "swapped, seed {seed}, {case:?}");
+        assert_eq!(case.whole::<T, D>(true).0, whole, "swapped, seed {seed}, {case:?}");
 
         let rows = rng.range(1, i64::from(height)) as u32;
         let mut bands = Vec::new();
         for top in (0..height).step_by(rows as usize) {
             let at = (0, -(top as i16));
-            bands.extend(case.draw::<T, u32>(viewport, (width, rows), at, rng.once_in(2)).0);
+            bands.extend(case.draw::<T, D>(viewport, (width, rows), at, rng.once_in(2)).0);
         }
         assert_eq!(bands, whole, "bands of {rows} rows, seed {seed}, {case:?}");
 
         let mut side = |size: u32| rng.range(-5, i64::from(size) + 5) as i32;
         let scissor = Rect { x0: side(width), y0: side(height), x1: side(width), y1: side(height) };
         let cut = viewport.with_scissor(scissor);
-        let (cut, _) = case.draw::<T, u32>(cut, (width + 3, height + 4), (3, 4), false);
-        let inside = |&(LinePixel { x, y }, _): &(LinePixel, u32)| {
+        let (cut, _) = case.draw::<T, D>(cut, (width + 3, height + 4), (3, 4), false);
+        let inside = |&(LinePixel { x, y }, _): &(LinePixel, D)| {
             (scissor.x0..scissor.x1).contains(&x) && (scissor.y0..scissor.y1).contains(&y)
         };
         let expected: Vec<_> = whole.iter().copied().filter(inside).collect();
@@ -288,12 +288,18 @@ fn windows_show_the_same<T: Tier>(seed: u64, cases: usize) {
 
 #[test]
 fn windows_show_the_same_in_the_exact_tier() {
-    windows_show_the_same::<Exact>(105, 3000);
+    windows_show_the_same::<Exact, u32>(105, 3000);
 }
 
 #[test]
 fn windows_show_the_same_with_8_subpixel_bits() {
-    windows_show_the_same::<Quick<8>>(106, 3000);
+    windows_show_the_same::<Quick<8>, u32>(106, 3000);
+    windows_show_the_same::<Quick<8>, u16>(113, 3000);
+}
+
+#[test]
+fn windows_show_the_same_with_4_subpixel_bits() {
+    windows_show_the_same::<Quick<4>, u16>(114, 3000);
 }
 
 /// The largest error of depths.

@@ -15,6 +15,12 @@
 //! slope's terms may cancel: on paper, that has no bound.
 //!
 //! A walk starts from what planes leave of the line in the viewport, not in the window, so that a band has the same depths.
+//!
+//! Lines between projected vertices have [`ProjectedDepths`]: by their own ends, so that a line has the same ones in any window.
+
+mod projected;
+
+pub(crate) use projected::ProjectedDepths;
 
 use super::plane::scaled_z;
 use crate::math::{Scale, Signed, align, combine, low, narrowed, unsigned};

@@ -2,14 +2,14 @@
 
 use super::{Counts, Frame, Outcome};
 use crate::clip::cut_line;
-use crate::depth::{DepthBias, DepthLine, DepthTest};
+use crate::depth::{DepthBias, DepthLine, DepthTest, ProjectedDepths};
 use crate::fragment::{Fragment, Sample};
 use crate::framebuffer::{Target, run};
 use crate::interpolation::{Correction, Interpolates};
 use crate::mesh::{Mesh, StoredPosition, VertexStage};
-use crate::setup::{Cull, Segment, Tier};
+use crate::setup::{Cull, ProjectedLine, Segment, Tier, doubled_area, facing};
 use crate::span::Span;
-use crate::traversal::LineRuns;
+use crate::traversal::{LineRuns, LineWalk};
 use crate::vertex::{Outside, Vertex};
 use core::slice::from_mut;
 
@@ -75,6 +75,18 @@ where
         if let Some(outcome) = super::rejected::<W, N>(a & b & !Outside::SIDES) {
             return outcome;
         }
+        if T::PROJECTS
+            && a & b & Outside::PROJECTED != 0
+            && (D::BITS == 0 || (D::BITS <= 16 && a & b & Outside::RANGED != 0))
+            && !self.cuts::<N>(Outside(a | b))
+        {
+            let [a, b] = vertices;
+            let corners = T::corners([&a.position, &b.position, &b.position]);
+            let drawn = self.draw_projected_line(corners, [a.z, b.z], bias, fragment);
+            if let Some(outcome) = drawn {
+                return outcome;
+            }
+        }
         let points = vertices.map(|v| T::in_pixels(&v.position, &self.viewport).point);
         let mut outcome = self.draw_part_of_line(vertices, points, bias, fragment);
         if W::BEHIND {
@@ -88,9 +100,62 @@ where
         outcome
     }
 
+    /// Draws a line between two projected vertices, with their depths, that no plane cuts; `None` where it has no length.
+    ///
+    /// Only the line's own ends lead here, and never a window: depths are not those of any other line to the bit.
+    #[inline(never)]
+    fn draw_projected_line<F>(
+        &mut self,
+        [a, b, _]: [[i32; 2]; 3],
+        [za, zb]: [i32; 2],
+        bias: DepthBias,
+        fragment: &F,
+    ) -> Option<Outcome>
+    where
+        F: Fragment<C::Color, 0>,
+    {
+        let line = ProjectedLine::new([a, b], T::SUBPIXEL_BITS)?;
+        let window = self.known_window();
+        let (width, _) = self.target.size();
+        let (left, top) = self.viewport.origin;
+        let Some((mut walk, from)) = LineWalk::new(&line, window, (left, top), width) else {
+            return Some(Outcome::OffScreen);
+        };
+        let target = &mut self.target;
+        let shade =
+            |x: i32, y: i32| fragment.shade(Sample { x: x - left, y: y - top, varyings: [] });
+        if D::BITS == 0 {
+            loop {
+                let (x, y) = walk.place();
+                let (end, more) = walk.run();
+                let ((first, length), (row, _)) = (run(x, end), run(y, y));
+                if F::UNIFORM {
+                    target.fill(first, row, length, shade(x, y));
+                } else {
+                    target.write(first, row, (x..end).map(|x| Some(shade(x, y))));
+                }
+                if !more {
+                    return Some(Outcome::Drawn);
+                }
+            }
+        }
+        let ends = if line.exchanged { [zb, za] } else { [za, zb] };
+        let depth = ProjectedDepths::new(&line, ends, T::SUBPIXEL_BITS, bias);
+        let mut value = depth.value(from - line.from);
+        self.depth.all(|depths| {
+            target.write_line(depths, walk, |stored, walk| {
+                let passes = D::passes(depth.running(value), stored);
+                value = depth.step(value);
+                let (x, y) = walk.place();
+                passes.then(|| shade(x, y))
+            });
+        });
+        Some(Outcome::Drawn)
+    }
+
     /// Draws the part in front of the eye of a line between points of pixel space.
     #[inline(never)]
-    fn draw_part_of_line<F, const N: usize>(
+    pub(super) fn draw_part_of_line<F, const N: usize>(
         &mut self,
         vertices: [&Vertex<T, N, P>; 2],
         points: [[i32; 3]; 2],
@@ -221,24 +286,45 @@ where
         self.transform(mesh, stage, 0, cache);
         let mut counts = Counts::default();
         for (face, indices) in mesh.triangles().iter().enumerate() {
+            let fragment = fragment.for_face(face);
+            let indices = indices.map(usize::from);
+            let [a, b, c] = indices.map(|index| cache.get(index));
+            if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+                self.draw_edges_of_face([a, b, c], bias, &fragment, &mut counts);
+                continue;
+            }
             let mut corners = [Vertex::EMPTY; 3];
-            for (corner, index) in corners.iter_mut().zip(indices.map(usize::from)) {
+            for (corner, index) in corners.iter_mut().zip(indices) {
                 match cache.get(index) {
                     Some(cached) => *corner = *cached,
                     None => self.transform(mesh, stage, index, from_mut(corner)),
                 }
             }
             let [a, b, c] = &corners;
-            if self.hides([a, b, c]) {
-                counts.add(Outcome::Culled);
-                continue;
-            }
-            let fragment = fragment.for_face(face);
-            for ends in [[a, b], [b, c], [c, a]] {
-                counts.add(self.draw_line(ends, bias, &fragment));
-            }
+            self.draw_edges_of_face([a, b, c], bias, &fragment, &mut counts);
         }
         counts
+    }
+
+    /// Draws the edges of a face that is not culled.
+    #[inline(never)]
+    fn draw_edges_of_face<F, const N: usize>(
+        &mut self,
+        [a, b, c]: [&Vertex<T, N, P>; 3],
+        bias: DepthBias,
+        fragment: &F,
+        counts: &mut Counts,
+    ) where
+        F: Fragment<C::Color, 0>,
+        W: Interpolates<N>,
+    {
+        if self.hides([a, b, c]) {
+            counts.add(Outcome::Culled);
+            return;
+        }
+        for ends in [[a, b], [b, c], [c, a]] {
+            counts.add(self.draw_line(ends, bias, fragment));
+        }
     }
 
     /// Whether a face is culled.
@@ -248,6 +334,11 @@ where
             return false;
         }
         let positions = vertices.map(|v| &v.position);
+        let [a, b, c] = vertices.map(|v| v.outside.0);
+        if T::PROJECTS && a & b & c & Outside::PROJECTED != 0 {
+            let facing = facing(doubled_area(&T::corners(positions)));
+            return facing.is_some_and(|facing| self.cull.hides(facing));
+        }
         let in_pixels = positions.map(|position| T::in_pixels(position, &self.viewport));
         let oriented = T::orient(positions, &in_pixels, &self.viewport);
         oriented.is_some_and(|(facing, _)| self.cull.hides(facing))

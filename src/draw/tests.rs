@@ -2,6 +2,7 @@
 
 mod filtered;
 mod keyed;
+mod lines;
 
 use super::*;
 use crate::color::Rgb565;

@@ -25,6 +25,10 @@
 //! | `Q.v` | 2^62 | two products of 2^31 and 2^30 |
 //! | `V span` in the viewport | 2^61 | 2^9 rows |
 
+mod projected;
+
+pub(crate) use projected::ProjectedLine;
+
 use crate::math::{MOST_STEPS, product, steps_to_zero};
 use crate::vertex::{Rect, Viewport};
 

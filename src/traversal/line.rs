@@ -3,6 +3,10 @@
 //! What a window, a scissor or a band leaves of a line is found on the exact line, and the value that decides where the next
 //! pixel is (`Q.v`, modulo `span`) is the same wherever the walk begins: the part is drawn as it is in the whole.
 
+mod walk;
+
+pub(crate) use walk::LineWalk;
+
 use crate::math::steps_to_zero;
 use crate::setup::Segment;
 use crate::span::Span;
