@@ -1,5 +1,6 @@
 //! Lines between snapped vertices, and the edges of a mesh.
 
+use super::shade::{shaded, tested};
 use super::{Counts, Frame, Outcome};
 use crate::clip::cut_line;
 use crate::depth::{DepthBias, DepthLine, DepthTest, ProjectedDepths};
@@ -122,17 +123,20 @@ where
             return Some(Outcome::OffScreen);
         };
         let target = &mut self.target;
-        let shade =
-            |x: i32, y: i32| fragment.shade(Sample { x: x - left, y: y - top, varyings: [] });
+        let shade = |passes: bool, x: i32, y: i32| {
+            shaded(fragment, passes, || Sample { x: x - left, y: y - top, varyings: [] })
+        };
         if D::BITS == 0 {
             loop {
                 let (x, y) = walk.place();
                 let (end, more) = walk.run();
                 let ((first, length), (row, _)) = (run(x, end), run(y, y));
-                if F::UNIFORM {
-                    target.fill(first, row, length, shade(x, y));
+                if F::UNIFORM && !F::DISCARDS {
+                    if let Some(color) = shade(true, x, y) {
+                        target.fill(first, row, length, color);
+                    }
                 } else {
-                    target.write(first, row, (x..end).map(|x| Some(shade(x, y))));
+                    target.write(first, row, (x..end).map(|x| shade(true, x, y)));
                 }
                 if !more {
                     return Some(Outcome::Drawn);
@@ -144,10 +148,10 @@ where
         let mut value = depth.value(from - line.from);
         self.depth.all(|depths| {
             target.write_line(depths, walk, |stored, walk| {
-                let passes = D::passes(depth.running(value), stored);
+                let running = depth.running(value);
                 value = depth.step(value);
                 let (x, y) = walk.place();
-                passes.then(|| shade(x, y))
+                tested::<D, F, _, 0>(running, stored, |passes| shade(passes, x, y))
             });
         });
         Some(Outcome::Drawn)
@@ -235,14 +239,17 @@ where
         let (left, top) = self.viewport.origin;
         let target = &mut self.target;
         for Span { y, x0, x1 } in runs {
-            let shade = |x: i32| fragment.shade(Sample { x, y, varyings: [] });
+            let shade =
+                |passes: bool, x: i32| shaded(fragment, passes, || Sample { x, y, varyings: [] });
             let (x, length) = run(x0 + left, x1 + left);
             let (row, _) = run(y + top, y + top);
             let Some(depth) = &depth else {
-                if F::UNIFORM {
-                    target.fill(x, row, length, shade(x0));
+                if F::UNIFORM && !F::DISCARDS {
+                    if let Some(color) = shade(true, x0) {
+                        target.fill(x, row, length, color);
+                    }
                 } else {
-                    target.write(x, row, (x0..x1).map(|x| Some(shade(x))));
+                    target.write(x, row, (x0..x1).map(|x| shade(true, x)));
                 }
                 continue;
             };
@@ -251,10 +258,10 @@ where
             let mut column = x0;
             self.depth.run(at, length, |depths| {
                 target.write_each::<_, 1>((x, row, at), depths, |stored, _| {
-                    let passes = D::passes(depth.running(value), stored);
+                    let running = depth.running(value);
                     value = depth.step(value);
                     column += 1;
-                    passes.then(|| shade(column - 1))
+                    tested::<D, F, _, 0>(running, stored, |passes| shade(passes, column - 1))
                 });
             });
         }
@@ -265,7 +272,7 @@ where
     /// the cache as [`draw`](Self::draw) has them.
     ///
     /// An edge that two such faces share is drawn twice, which are the same pixels: whether there is another face is not known, and
-    /// in one colour it does not show. The edges of a face seen edge-on, or of no area, are drawn whatever is culled.
+    /// in one colour it does not show, unless the target merges. The edges of a face seen edge-on, or of no area, are drawn whatever is culled.
     ///
     /// Over the filled faces give it a bias, such as [`DepthBias::WIREFRAME`]. Counted are lines; of faces that are culled one
     /// each.

@@ -229,3 +229,57 @@ fn the_first_triangle_of_a_frame_is_as_any_other() {
     }
     assert!(drawn > 10_000, "{drawn}");
 }
+
+/// Dashes of a line that are left out are neither drawn nor stored, in either way of lines, with depth and without.
+#[test]
+fn lines_leave_out_what_is_discarded() {
+    #[derive(Clone, Copy)]
+    struct Dashes;
+
+    impl Fragment<Rgb565, 0> for Dashes {
+        const UNIFORM: bool = false;
+        const DISCARDS: bool = true;
+
+        fn shade(&self, _: Sample<0>) -> Rgb565 {
+            Rgb565(1)
+        }
+
+        fn shade_or_discard(&self, sample: Sample<0>) -> Option<Rgb565> {
+            (sample.x % 2 == 0).then_some(Rgb565(1))
+        }
+    }
+
+    fn drawn<T: Tier>() -> [Vec<u32>; 3] {
+        let corner = |x: i32, y: i32| {
+            let [x, y] = [x, y].map(|v| I16F16::from_bits(v << 12));
+            ClipVertex::new(x, y, I16F16::ZERO, I16F16::ONE)
+        };
+        let ends = [corner(-15, 2), corner(15, -2)];
+        let hither = Hither::new(I16F16::ONE).unwrap();
+        let (mut bare, mut color, mut depth) = ([0; 256], [0; 256], [u16::MAX; 256]);
+        let target = Framebuffer::<Rgb565>::try_new(&mut bare, 16, 16).unwrap();
+        let mut frame = Frame::new(target).unwrap().with_tier(T::default());
+        let [a, b] = ends.map(|end| frame.snap(&end, []));
+        frame.draw_line([&a, &b], crate::DepthBias::NONE, &Dashes);
+        let target = Framebuffer::<Rgb565>::try_new(&mut color, 16, 16).unwrap();
+        let depths = DepthBuffer::try_new(&mut depth, 16, 16).unwrap();
+        let frame = Frame::new(target).unwrap().with_tier(T::default()).with_hither(hither);
+        let mut frame = frame.with_depth(depths).unwrap();
+        let [a, b] = ends.map(|end| frame.snap(&end, []));
+        frame.draw_line([&a, &b], crate::DepthBias::NONE, &Dashes);
+        let columns = |changed: &dyn Fn(usize) -> bool| {
+            (0..256).filter(|&at| changed(at)).map(|at| at as u32 % 16).collect::<Vec<_>>()
+        };
+        let mut all = [
+            columns(&|at| bare[at] != 0),
+            columns(&|at| color[at] != 0),
+            columns(&|at| depth[at] != u16::MAX),
+        ];
+        all.iter_mut().for_each(|columns| columns.sort_unstable());
+        all
+    }
+    let even: Vec<u32> = (0..8).map(|x| 2 * x).collect();
+    for columns in [drawn::<Quick<8>>(), drawn::<Quick<4>>(), drawn::<crate::Exact>()] {
+        assert!(columns.iter().all(|columns| *columns == even), "{columns:?}");
+    }
+}

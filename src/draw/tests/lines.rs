@@ -65,7 +65,6 @@ fn projected_lines_are_as_any<T: Tier>(mut seed: u32) {
         lines += usize::from(projected);
         pixels += colors.iter().filter(|color| **color != 0).count();
     }
-    std::println!("{lines} lines, {pixels} pixels, {other} of another depth");
     assert!(lines > 12_000 && pixels > 50_000 && other * 1000 < pixels, "{lines} {pixels} {other}");
 }
 
