@@ -6,11 +6,11 @@ mod lines;
 
 use super::*;
 use crate::color::Rgb565;
-use crate::depth::DepthBuffer;
+use crate::depth::{DepthBias, DepthBuffer};
 use crate::fragment::{FaceColors, Flat, Sample};
 use crate::framebuffer::Framebuffer;
 use crate::interpolation::{Packed, PerspectiveEvery};
-use crate::vertex::{Quick, Viewport};
+use crate::vertex::{Exact, Quick, Viewport};
 use std::vec;
 use std::vec::Vec;
 
@@ -260,13 +260,13 @@ fn lines_leave_out_what_is_discarded() {
         let target = Framebuffer::<Rgb565>::try_new(&mut bare, 16, 16).unwrap();
         let mut frame = Frame::new(target).unwrap().with_tier(T::default());
         let [a, b] = ends.map(|end| frame.snap(&end, []));
-        frame.draw_line([&a, &b], crate::DepthBias::NONE, &Dashes);
+        frame.draw_line([&a, &b], DepthBias::NONE, &Dashes);
         let target = Framebuffer::<Rgb565>::try_new(&mut color, 16, 16).unwrap();
         let depths = DepthBuffer::try_new(&mut depth, 16, 16).unwrap();
         let frame = Frame::new(target).unwrap().with_tier(T::default()).with_hither(hither);
         let mut frame = frame.with_depth(depths).unwrap();
         let [a, b] = ends.map(|end| frame.snap(&end, []));
-        frame.draw_line([&a, &b], crate::DepthBias::NONE, &Dashes);
+        frame.draw_line([&a, &b], DepthBias::NONE, &Dashes);
         let columns = |changed: &dyn Fn(usize) -> bool| {
             (0..256).filter(|&at| changed(at)).map(|at| at as u32 % 16).collect::<Vec<_>>()
         };
@@ -279,7 +279,7 @@ fn lines_leave_out_what_is_discarded() {
         all
     }
     let even: Vec<u32> = (0..8).map(|x| 2 * x).collect();
-    for columns in [drawn::<Quick<8>>(), drawn::<Quick<4>>(), drawn::<crate::Exact>()] {
+    for columns in [drawn::<Quick<8>>(), drawn::<Quick<4>>(), drawn::<Exact>()] {
         assert!(columns.iter().all(|columns| *columns == even), "{columns:?}");
     }
 }

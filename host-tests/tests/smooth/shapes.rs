@@ -206,7 +206,7 @@ fn bad_shapes_are_nothing_or_an_error() {
         let any: Vec<Corner> = (0..rng.below(65))
             .map(|_| {
                 [(); 2].map(|()| match rng.below(4) {
-                    0 => [least, most][rng.below(2) as usize],
+                    0 => grid([least, most][rng.below(2) as usize].to_bits()),
                     1 => grid(rng.bits() as i32),
                     _ => grid(rng.range(-(8 << 16), 56 << 16) as i32),
                 })
