@@ -102,7 +102,10 @@ impl Transfer for Sender {
         Ok(())
     }
 
-    fn poll_finish(&mut self, context: &mut Context<'_>) -> Poll<Result<Option<Words>, PanelError>> {
+    fn poll_finish(
+        &mut self,
+        context: &mut Context<'_>,
+    ) -> Poll<Result<Option<Words>, PanelError>> {
         if self.in_flight {
             let (words, sent) = ready!(FROM_PANEL.poll_receive(context));
             self.in_flight = false;
