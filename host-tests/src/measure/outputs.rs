@@ -110,7 +110,7 @@ fn parse(machine: &Machine, line: &str) -> Option<(Cost, u32)> {
     Some((cost, u32::from_str_radix(sum, 16).ok()?))
 }
 
-/// Whether bands from bins are within [`MOST`] of the whole frame, in the tier that frames begin with.
+/// Whether bands from bins are within `MOST` of the whole frame, in the tier that frames begin with.
 ///
 /// # Errors
 ///
