@@ -12,7 +12,6 @@ use crate::setup::{Cull, ProjectedLine, Segment, Tier, doubled_area, facing};
 use crate::span::Span;
 use crate::traversal::{LineRuns, LineWalk};
 use crate::vertex::{Outside, Vertex};
-use core::slice::from_mut;
 
 impl<C, D, W, T, I, const P: usize> Frame<C, D, W, T, I, P>
 where
@@ -272,7 +271,8 @@ where
     /// the cache as [`draw`](Self::draw) has them.
     ///
     /// An edge that two such faces share is drawn twice, which are the same pixels: whether there is another face is not known, and
-    /// in one colour it does not show, unless the target merges. The edges of a face seen edge-on, or of no area, are drawn whatever is culled.
+    /// in one colour it does not show, unless the target merges. The edges of a face seen edge-on, or of no area, are drawn
+    /// whatever is culled.
     ///
     /// Over the filled faces give it a bias, such as [`DepthBias::WIREFRAME`]. Counted are lines; of faces that are culled one
     /// each.
@@ -294,20 +294,12 @@ where
         let mut counts = Counts::default();
         for (face, indices) in mesh.triangles().iter().enumerate() {
             let fragment = fragment.for_face(face);
-            let indices = indices.map(usize::from);
-            let [a, b, c] = indices.map(|index| cache.get(index));
-            if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+            let cached = indices.map(|index| cache.get(usize::from(index)));
+            if let [Some(a), Some(b), Some(c)] = cached {
                 self.draw_edges_of_face([a, b, c], bias, &fragment, &mut counts);
                 continue;
             }
-            let mut corners = [Vertex::EMPTY; 3];
-            for (corner, index) in corners.iter_mut().zip(indices) {
-                match cache.get(index) {
-                    Some(cached) => *corner = *cached,
-                    None => self.transform(mesh, stage, index, from_mut(corner)),
-                }
-            }
-            let [a, b, c] = &corners;
+            let [a, b, c] = &self.corners(mesh, stage, *indices, cached);
             self.draw_edges_of_face([a, b, c], bias, &fragment, &mut counts);
         }
         counts
